@@ -1,0 +1,52 @@
+#pragma once
+
+#include "core/state_blob.hpp"
+#include "core/time.hpp"
+#include "model/state.hpp"
+
+namespace ballbot {
+
+using FeedbackGain = Eigen::Matrix<double, kJointCount, kStateDim>;
+
+/// What to do at one instant: tau = torque + feedback (x - x_ref), and set-points for joint PD.
+struct PolicySample {
+  StateVector x = StateVector::Zero();              ///< reference state x_ref
+  JointVector torque = JointVector::Zero();         ///< feedforward [N m]
+  FeedbackGain feedback = FeedbackGain::Zero();     ///< K, multiplies x - x_ref
+  JointVector joint_position = JointVector::Zero(); ///< wheels: integrated along the plan [rad]
+  JointVector joint_velocity = JointVector::Zero(); ///< [rad/s]
+};
+
+/// What happened inside a plan() call, for the record.
+struct PlanReport {
+  bool accepted = true;      ///< false: the previous policy stays in force
+  int iterations = 0;
+  double cost = 0;
+  double step_length = 0;
+  double constraint_violation = 0;
+};
+
+/// A balancing law: plans at its own period, is sampled at the tracker's.
+class ControlLaw {
+ public:
+  virtual ~ControlLaw() = default;
+
+  /// Plans from the estimate `x` and the measured joint angles, both of time `now`. The plan is
+  /// stamped with `now`; who calls decides from when on it may act (computation latency).
+  virtual PlanReport plan(SimTime now, const StateVector& x, const JointVector& joint_angle) noexcept = 0;
+
+  /// Makes the newest plan the one that sample() uses.
+  virtual void activatePlan() noexcept = 0;
+
+  /// The policy in force at `now`. Never allocates, locks or throws.
+  virtual void sample(SimTime now, PolicySample& out) const noexcept = 0;
+
+  /// Tells the law what torque is commanded from `now` for `period` (frequency-shaping filters are
+  /// driven by it). Called at every tracker tick.
+  virtual void commanded(SimTime now, SimDuration period, const JointVector& torque) noexcept = 0;
+
+  virtual StateBlob saveState() const = 0;
+  virtual void restoreState(const StateBlob& blob) = 0;
+};
+
+}  // namespace ballbot

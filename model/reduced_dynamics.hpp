@@ -1,0 +1,77 @@
+#pragma once
+
+#include "model/robot_parameters.hpp"
+#include "model/state.hpp"
+
+namespace ballbot {
+
+using MassMatrix = Eigen::Matrix<double, kVelocityDim, kVelocityDim>;
+using SelectionMatrix = Eigen::Matrix<double, kJointCount, kVelocityDim>;
+using EndEffectorJacobian = Eigen::Matrix<double, 6, kVelocityDim>;
+using StateJacobian = Eigen::Matrix<double, kStateDim, kStateDim>;
+using TorqueJacobian = Eigen::Matrix<double, kStateDim, kJointCount>;
+using ForceJacobian = Eigen::Matrix<double, kStateDim, 3>;
+
+/// The robot's 8 degrees of freedom as rigid bodies on a ball that rolls without slip and without
+/// spin about the vertical:
+///
+///   M(q) dnu/dt + h(q, nu) = S(q)^T tau + J_E(q)^T lambda_W
+///
+/// tau: actuator torques, wheels then arm [N m]; lambda_W: force of the environment on the
+/// end-effector, at E, in W [N]. From a Newton-Euler pass (Minniti et al. 2019, eq. 1-3).
+/// Const and free of allocation: may run in the control step.
+class ReducedDynamics {
+ public:
+  explicit ReducedDynamics(const RobotParameters& robot);
+  const RobotParameters& robot() const { return robot_; }
+
+  MassMatrix massMatrix(const PositionVector& q) const;
+  /// Gravity, Coriolis and centrifugal terms [N, N m].
+  VelocityVector nonlinearEffects(const PositionVector& q, const VelocityVector& nu) const;
+  /// Joint rates = S(q) nu: rolling rows for the wheels, identity for the arm.
+  SelectionMatrix selectionMatrix(const PositionVector& q) const;
+
+  /// dnu/dt for given torques and end-effector force.
+  VelocityVector acceleration(const PositionVector& q, const VelocityVector& nu,
+                              const JointVector& tau, const Vector3& lambda_W) const;
+  /// dx/dt, x = (q, nu).
+  StateVector derivative(const StateVector& x, const JointVector& tau,
+                         const Vector3& lambda_W) const;
+
+  /// dx/dt with its partial derivatives, in one pass.
+  struct Linearization {
+    StateVector f;
+    StateJacobian df_dx;
+    TorqueJacobian df_dtau;
+    ForceJacobian df_dlambda;
+  };
+  void linearize(const StateVector& x, const JointVector& tau, const Vector3& lambda_W,
+                 Linearization& out) const;
+
+  struct EndEffector {
+    Vector3 p_WE;      ///< position in W [m]
+    Matrix3 R_WE;      ///< orientation
+    Vector3 v_WE_W;    ///< velocity [m/s]
+    Vector3 w_WE_W;    ///< angular velocity, in W [rad/s]
+  };
+  EndEffector endEffector(const StateVector& x) const;
+  /// (v_WE_W; w_WE_W) = J nu.
+  EndEffectorJacobian endEffectorJacobian(const PositionVector& q) const;
+
+  /// Kinetic plus potential energy [J], zero potential at z = 0.
+  double energy(const StateVector& x) const;
+
+ private:
+  RobotParameters robot_;
+};
+
+/// Pitch and roll at which the robot stands still with the arm at `arm` and no force on it, and
+/// the torques that hold it there. Returned as a state with px = py = yaw = 0.
+/// @throw NumericalError if there is none within 30 degrees.
+struct Equilibrium {
+  StateVector x;
+  JointVector tau;
+};
+Equilibrium findEquilibrium(const ReducedDynamics& dynamics, const Vector3& arm);
+
+}  // namespace ballbot
