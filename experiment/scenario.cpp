@@ -1,0 +1,138 @@
+#include "experiment/scenario.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/config_reader.hpp"
+#include "core/digest.hpp"
+#include "core/error.hpp"
+#include "core/yaml_file.hpp"
+#include "experiment/text_file.hpp"
+
+namespace ballbot {
+namespace {
+
+namespace fs = std::filesystem;
+
+Rates readRates(ConfigReader in) {
+  Rates r;
+  r.base_step = in.durationOr("base_step_us", r.base_step, {1, 1e6});
+  r.tracker = in.durationOr("tracker_period_us", r.tracker, {1, 1e6});
+  r.estimator = in.durationOr("estimator_period_us", r.estimator, {1, 1e6});
+  r.planner = in.durationOr("planner_period_us", r.planner, {1, 1e7});
+  r.plan_latency = in.durationOr("plan_latency_us", r.plan_latency, {0, 1e6});
+  in.finish();
+  return r;
+}
+
+std::vector<Requirement> readRequirements(const ConfigNode& node) {
+  if (node.kind() != ConfigNode::Kind::kMap) {
+    throw InputError(fmt::format("{}: requirements must be a mapping from metric to limits, e.g. "
+                                 "'largest_tilt_deg: {{below: 20}}'",
+                                 toText(node.where())));
+  }
+  std::vector<Requirement> out;
+  for (const auto& [metric, limits] : node.entries()) {
+    ConfigReader in(limits, "requirements." + metric);
+    Requirement r;
+    r.metric = metric;
+    r.where = limits.where();
+    if (in.has("below")) r.below = in.number("below");
+    if (in.has("above")) r.above = in.number("above");
+    in.finish();
+    if (!r.below && !r.above) {
+      throw InputError(fmt::format("{}: requirement '{}' has no limit; give 'below', 'above' or both",
+                                   toText(limits.where()), metric));
+    }
+    out.push_back(std::move(r));
+  }
+  return out;
+}
+
+/// The URDF named in the robot section, relative to the file that names it.
+std::string urdfPath(const ConfigNode& robot) {
+  const ConfigNode* urdf = robot.find("urdf");
+  if (!urdf || urdf->kind() != ConfigNode::Kind::kScalar) {
+    throw InputError(fmt::format("{}: key 'urdf' (a file name) is missing in 'robot'",
+                                 toText(robot.where())));
+  }
+  const fs::path path = fs::path(urdf->where().source).parent_path() / urdf->text();
+  if (!fs::is_regular_file(path)) {
+    throw InputError(fmt::format("{}: urdf is '{}', but there is no file '{}'",
+                                 toText(urdf->where()), urdf->text(), path.lexically_normal().string()));
+  }
+  return path.lexically_normal().string();
+}
+
+constexpr const char* kSections[] = {"robot",     "plant",    "initial",    "environment",
+                                     "estimator", "controller", "recording"};
+
+}  // namespace
+
+const ConfigNode& Scenario::section(const std::string& section_name) const {
+  const ConfigNode* node = tree.find(section_name);
+  if (!node) {
+    throw InputError(fmt::format("{}: section '{}' is missing", toText(tree.where()), section_name));
+  }
+  return *node;
+}
+
+std::string Scenario::configDigest() const {
+  ConfigNode canonical = tree;
+  canonical.find("robot")->set("urdf", ConfigNode::scalar("robot.urdf", false, {}));
+  Digest digest;
+  digest.add(toYaml(canonical));
+  digest.add(readTextFile(urdf_path));
+  return digest.hex();
+}
+
+Scenario loadScenario(const std::string& path, const std::vector<std::string>& overrides,
+                      std::optional<std::uint64_t> seed) {
+  if (fs::is_directory(path)) {
+    throw InputError(fmt::format("{}: is a folder; a scenario is a YAML file such as "
+                                 "configs/scenarios/balance.yaml",
+                                 path));
+  }
+  Scenario s;
+  s.tree = loadYamlFile(path);
+  if (s.tree.kind() != ConfigNode::Kind::kMap) {
+    throw InputError(fmt::format("{}: a scenario must be a mapping of keys to values", path));
+  }
+  for (const std::string& text : overrides) applyOverride(s.tree, text);
+  if (seed) {
+    s.tree.set("seed", ConfigNode::scalar(std::to_string(*seed), false, {"--seed", 0, 0}));
+  }
+
+  ConfigReader in(s.tree);
+  s.name = in.text("name");
+  s.summary = in.textOr("summary", "");
+  s.duration = in.duration("duration_s", {1e-3, 1e5});
+  s.seed = static_cast<std::uint64_t>(in.number("seed", {0, 9007199254740992.0}));
+  for (const char* section : kSections) in.raw(section);
+  if (in.has("rates")) s.rates = readRates(in.child("rates"));
+  if (const ConfigNode* node = in.raw("requirements")) s.requirements = readRequirements(*node);
+  in.finish();
+
+  s.section("plant");
+  s.section("estimator");
+  s.section("controller");
+  if (const ConfigNode* initial = s.tree.find("initial")) {
+    ConfigReader initial_in(*initial, "initial");  // the plant reads, and finishes, the rest of it
+    s.release = kSimStart + initial_in.durationOr("release_s", SimDuration::zero(), {0, 100});
+  }
+  s.urdf_path = urdfPath(s.section("robot"));
+  return s;
+}
+
+void writeScenario(const Scenario& scenario, const std::string& folder) {
+  ConfigNode tree = scenario.tree;
+  tree.find("robot")->set("urdf", ConfigNode::scalar("robot.urdf", false, {}));
+  writeTextFile(folder + "/scenario.yaml",
+                "# What was run: includes and overrides resolved. Run it again with\n"
+                "#   ballbot run scenario.yaml\n" +
+                    toYaml(tree));
+  writeTextFile(folder + "/robot.urdf", readTextFile(scenario.urdf_path));
+}
+
+}  // namespace ballbot

@@ -1,0 +1,49 @@
+#include "experiment/verdict.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.hpp"
+
+namespace ballbot {
+
+std::vector<VerdictRow> judge(const std::vector<Requirement>& requirements,
+                              const std::map<std::string, double>& metrics,
+                              const std::vector<std::string>& known_metrics) {
+  std::vector<VerdictRow> rows;
+  for (const Requirement& r : requirements) {
+    if (std::find(known_metrics.begin(), known_metrics.end(), r.metric) == known_metrics.end()) {
+      throw InputError(fmt::format("{}: requirement on unknown metric '{}'; known are: {}",
+                                   toText(r.where), r.metric, fmt::join(known_metrics, ", ")));
+    }
+    VerdictRow row;
+    row.metric = r.metric;
+    row.limit = r.below && r.above ? fmt::format("{} to {}", *r.above, *r.below)
+                : r.below          ? fmt::format("< {}", *r.below)
+                                   : fmt::format("> {}", *r.above);
+    const auto it = metrics.find(r.metric);
+    row.measured = it != metrics.end();
+    if (row.measured) {
+      row.value = it->second;
+      row.passed = (!r.below || row.value < *r.below) && (!r.above || row.value > *r.above);
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string unitOfMetric(const std::string& name) {
+  static const std::pair<const char*, const char*> kUnits[] = {
+      {"_m_per_s", "m/s"}, {"_rad_per_s", "rad/s"}, {"_Nm", "N m"}, {"_deg", "deg"}, {"_percent", "%"},
+      {"_Hz", "Hz"},       {"_ms", "ms"},           {"_us", "us"},  {"_rad", "rad"}, {"_kg", "kg"},
+      {"_m", "m"},         {"_s", "s"},             {"_N", "N"},    {"_J", "J"}};
+  for (const auto& [suffix, unit] : kUnits) {
+    const std::string s(suffix);
+    if (name.size() > s.size() && name.compare(name.size() - s.size(), s.size(), s) == 0) return unit;
+  }
+  return "";
+}
+
+}  // namespace ballbot

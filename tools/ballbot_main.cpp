@@ -1,0 +1,44 @@
+#include <cstdio>
+#include <exception>
+
+#include "tools/commands.hpp"
+
+int main(int argc, char** argv) {
+  using namespace ballbot;
+  CLI::App program{
+      "ballbot: co-simulation of a robot that balances on a ball.\n"
+      "A high-fidelity plant and a controller, each a process of its own, step each other over LCM;\n"
+      "the same scenario gives the same bytes every time."};
+  program.name("ballbot");
+  program.set_version_flag("--version", "ballbot " BALLBOT_VERSION);
+  program.require_subcommand(1);
+  program.footer(
+      "Start with:\n"
+      "  ballbot run configs/scenarios/balance.yaml\n"
+      "Exit codes: 0 passed, 1 a requirement was missed, 2 bad input, 3 a participant was lost,\n"
+      "4 output could not be written, 130 interrupted.");
+
+  ExitCode result = ExitCode::kPassed;
+  addRunCommand(program, result);
+  addCheckCommand(program, result);
+  addCompareCommand(program, result);
+  addExportCommand(program, result);
+  addPlantCommand(program, result);
+  addControllerCommand(program, result);
+  addRelayCommand(program, result);
+  addDoctorCommand(program, result);
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    const int code = program.exit(e);
+    return code == 0 ? 0 : static_cast<int>(ExitCode::kBadInput);
+  } catch (const Error& e) {
+    std::fprintf(stderr, "ballbot: %s\n", e.what());
+    return static_cast<int>(e.exitCode());
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "ballbot: unexpected: %s\n", e.what());
+    return static_cast<int>(ExitCode::kOutputFailed);
+  }
+  return static_cast<int>(result);
+}

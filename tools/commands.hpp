@@ -1,0 +1,20 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "core/error.hpp"
+
+namespace ballbot {
+
+/// Each verb of the program adds itself here and, when called, leaves its exit code in `result`.
+/// Errors are thrown; main() prints them.
+void addRunCommand(CLI::App& program, ExitCode& result);
+void addCheckCommand(CLI::App& program, ExitCode& result);
+void addCompareCommand(CLI::App& program, ExitCode& result);
+void addPlantCommand(CLI::App& program, ExitCode& result);
+void addControllerCommand(CLI::App& program, ExitCode& result);
+void addRelayCommand(CLI::App& program, ExitCode& result);
+void addExportCommand(CLI::App& program, ExitCode& result);
+void addDoctorCommand(CLI::App& program, ExitCode& result);
+
+}  // namespace ballbot
