@@ -1,9 +1,13 @@
 #pragma once
 
+#include <memory>
+
 #include "model/robot_parameters.hpp"
 #include "model/state.hpp"
 
 namespace ballbot {
+
+struct DynamicsConstants;
 
 using MassMatrix = Eigen::Matrix<double, kVelocityDim, kVelocityDim>;
 using SelectionMatrix = Eigen::Matrix<double, kJointCount, kVelocityDim>;
@@ -63,6 +67,7 @@ class ReducedDynamics {
 
  private:
   RobotParameters robot_;
+  std::shared_ptr<const DynamicsConstants> constants_;
 };
 
 /// Pitch and roll at which the robot stands still with the arm at `arm` and no force on it, and
