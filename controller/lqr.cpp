@@ -1,0 +1,63 @@
+#include "controller/lqr.hpp"
+
+#include <cmath>
+
+#include "controller/riccati_equation.hpp"
+#include "core/config_reader.hpp"
+
+namespace ballbot {
+
+StateJacobian LqrWeights::stateWeight() const {
+  StateVector diagonal;
+  diagonal << ball_position, ball_position, yaw, tilt, tilt, Vector3::Constant(arm_position),
+      ball_velocity, ball_velocity, Vector3::Constant(base_rate), Vector3::Constant(arm_rate);
+  return diagonal.asDiagonal();
+}
+
+JointVector LqrWeights::torqueWeight() const {
+  JointVector diagonal;
+  diagonal << Vector3::Constant(wheel_torque), Vector3::Constant(arm_torque);
+  return diagonal;
+}
+
+LqrWeights LqrWeights::read(ConfigReader& in) {
+  LqrWeights w;
+  w.ball_position = in.numberOr("ball_position", w.ball_position, {kTiny, 1e6});
+  w.yaw = in.numberOr("yaw", w.yaw, {kTiny, 1e6});
+  w.tilt = in.numberOr("tilt", w.tilt, {0, 1e6});
+  w.arm_position = in.numberOr("arm_position", w.arm_position, {kTiny, 1e6});
+  w.ball_velocity = in.numberOr("ball_velocity", w.ball_velocity, {0, 1e6});
+  w.base_rate = in.numberOr("base_rate", w.base_rate, {0, 1e6});
+  w.arm_rate = in.numberOr("arm_rate", w.arm_rate, {0, 1e6});
+  w.wheel_torque = in.numberOr("wheel_torque", w.wheel_torque, {kTiny, 1e6});
+  w.arm_torque = in.numberOr("arm_torque", w.arm_torque, {kTiny, 1e6});
+  in.finish();
+  return w;
+}
+
+LqrSolution designLqr(const ReducedDynamics& dynamics, const Vector3& arm,
+                      const LqrWeights& weights) {
+  LqrSolution out;
+  out.equilibrium = findEquilibrium(dynamics, arm);
+
+  ReducedDynamics::Linearization model;
+  dynamics.linearize(out.equilibrium.x, out.equilibrium.tau, Vector3::Zero(), model);
+  const auto& B = model.df_dtau;
+  // R^-1 B^T
+  const FeedbackGain R_inverse_Bt =
+      weights.torqueWeight().cwiseInverse().asDiagonal() * B.transpose();
+  out.P = solveContinuousRiccati<kStateDim>(model.df_dx, B * R_inverse_Bt, weights.stateWeight());
+  out.K = -R_inverse_Bt * out.P;
+  return out;
+}
+
+FeedbackGain gainAtYaw(const FeedbackGain& K, double yaw) {
+  Eigen::Matrix2d to_heading;  // takes W coordinates to those of a frame turned by yaw
+  to_heading << std::cos(yaw), std::sin(yaw), -std::sin(yaw), std::cos(yaw);
+  FeedbackGain turned = K;
+  turned.middleCols<2>(kBallX) = K.middleCols<2>(kBallX) * to_heading;
+  turned.middleCols<2>(kPositionDim + kBallVx) = K.middleCols<2>(kPositionDim + kBallVx) * to_heading;
+  return turned;
+}
+
+}  // namespace ballbot

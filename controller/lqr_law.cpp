@@ -1,0 +1,108 @@
+#include "controller/lqr_law.hpp"
+
+#include <algorithm>
+
+#include "controller/policy_sample_blob.hpp"
+#include "core/config_reader.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr char kBlobKind[] = "lqr_law";
+constexpr std::uint32_t kBlobVersion = 1;
+
+}  // namespace
+
+LqrLawConfig LqrLawConfig::read(ConfigReader& in, const RobotParameters& robot) {
+  LqrLawConfig c;
+  c.set_point.arm = robot.nominal_arm;
+  if (in.has("set_point")) {
+    ConfigReader set_point = in.child("set_point");
+    c.set_point = SetPoint::read(set_point, robot);
+  }
+  if (in.has("weights")) {
+    ConfigReader weights = in.child("weights");
+    c.weights = LqrWeights::read(weights);
+  }
+  c.position_error_limit =
+      in.numberOr("position_error_limit_m", c.position_error_limit, {kTiny, 100});
+  c.yaw_error_limit = in.numberOr("yaw_error_limit_rad", c.yaw_error_limit, {kTiny, 100});
+  in.finish();
+  return c;
+}
+
+LqrLaw::LqrLaw(const RobotParameters& robot, const LqrLawConfig& config)
+    : config_(config),
+      dynamics_(robot),
+      solution_(designLqr(dynamics_, config.set_point.arm, config.weights)) {
+  StateVector at_set_point = solution_.equilibrium.x;
+  at_set_point.segment<2>(kBallX) = config_.set_point.ball_position;
+  at_set_point[kYaw] = config_.set_point.yaw;
+  planned_ = planFor(kSimStart, at_set_point, JointVector::Zero());
+  active_ = planned_;
+}
+
+LqrLaw::Plan LqrLaw::planFor(SimTime now, const StateVector& x,
+                             const JointVector& joint_angle) const noexcept {
+  Plan plan;
+  plan.stamp = now;
+  PolicySample& p = plan.at_stamp;
+
+  p.x = solution_.equilibrium.x;
+  const Eigen::Vector2d error = config_.set_point.ball_position - x.segment<2>(kBallX);
+  const double distance = error.norm();
+  const double cut = distance > config_.position_error_limit
+                         ? config_.position_error_limit / distance : 1.0;
+  p.x.segment<2>(kBallX) = x.segment<2>(kBallX) + cut * error;
+  p.x[kYaw] = x[kYaw] + std::clamp(config_.set_point.yaw - x[kYaw], -config_.yaw_error_limit,
+                                   config_.yaw_error_limit);
+
+  p.torque = solution_.equilibrium.tau;
+  p.feedback = gainAtYaw(solution_.K, x[kYaw]);
+
+  p.joint_position.head<kWheelCount>() = joint_angle.head<kWheelCount>();
+  p.joint_position.tail<kArmJointCount>() = config_.set_point.arm;
+  p.joint_velocity = dynamics_.selectionMatrix(x.head<kPositionDim>()) * x.tail<kVelocityDim>();
+  p.joint_velocity.tail<kArmJointCount>().setZero();
+  return plan;
+}
+
+PlanReport LqrLaw::plan(SimTime now, const StateVector& x,
+                        const JointVector& joint_angle) noexcept {
+  PlanReport report;
+  report.accepted = x.allFinite() && joint_angle.allFinite();
+  if (!report.accepted) return report;
+  planned_ = planFor(now, x, joint_angle);
+  report.step_length = 1;
+  const StateVector error = x - planned_.at_stamp.x;
+  report.cost = 0.5 * error.dot(solution_.P * error);
+  return report;
+}
+
+void LqrLaw::sample(SimTime now, PolicySample& out) const noexcept {
+  out = active_.at_stamp;
+  out.joint_position += toSeconds(now - active_.stamp) * out.joint_velocity;
+}
+
+StateBlob LqrLaw::saveState() const {
+  BlobWriter out;
+  for (const Plan* plan : {&planned_, &active_}) {
+    out.put(toNs(plan->stamp));
+    putPolicySample(out, plan->at_stamp);
+  }
+  return out.seal(kBlobKind, kBlobVersion);
+}
+
+void LqrLaw::restoreState(const StateBlob& blob) {
+  BlobReader in(blob, kBlobKind, kBlobVersion);
+  Plan planned, active;
+  for (Plan* plan : {&planned, &active}) {
+    plan->stamp = simTimeFromNs(in.get<std::int64_t>());
+    getPolicySample(in, plan->at_stamp);
+  }
+  in.finish();
+  planned_ = planned;
+  active_ = active;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "controller/control_law.hpp"
+#include "controller/lqr.hpp"
+#include "controller/set_point.hpp"
+
+namespace ballbot {
+
+struct LqrLawConfig {
+  SetPoint set_point;
+  LqrWeights weights;
+  /// Errors beyond these are cut, so that a far set-point makes the robot cruise, not fall.
+  double position_error_limit = 0.5;  ///< [m]
+  double yaw_error_limit = 0.8;       ///< [rad]
+
+  /// Keys: set_point, weights, position_error_limit_m, yaw_error_limit_rad; all optional.
+  static LqrLawConfig read(ConfigReader& in, const RobotParameters& robot);
+};
+
+/// Balances at a set-point by LQR about the equilibrium of the arm pose. A plan is the gain turned
+/// into the present heading, the reference it acts on, and the joint angles measured, so that PD
+/// loops on the joints do not fight where the ball has rolled to.
+class LqrLaw final : public ControlLaw {
+ public:
+  /// @throw NumericalError if the pose has no equilibrium or cannot be balanced.
+  LqrLaw(const RobotParameters& robot, const LqrLawConfig& config);
+
+  PlanReport plan(SimTime now, const StateVector& x,
+                  const JointVector& joint_angle) noexcept override;
+  void activatePlan() noexcept override { active_ = planned_; }
+  void sample(SimTime now, PolicySample& out) const noexcept override;
+  void commanded(SimTime, SimDuration, const JointVector&) noexcept override {}
+
+  StateBlob saveState() const override;
+  void restoreState(const StateBlob& blob) override;
+
+  const LqrSolution& solution() const { return solution_; }
+
+ private:
+  struct Plan {
+    SimTime stamp{};
+    PolicySample at_stamp;
+  };
+  Plan planFor(SimTime now, const StateVector& x, const JointVector& joint_angle) const noexcept;
+
+  LqrLawConfig config_;
+  ReducedDynamics dynamics_;
+  LqrSolution solution_;
+  Plan planned_, active_;
+};
+
+}  // namespace ballbot
