@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
+
 #include "core/config_reader.hpp"
 #include "estimator/attitude.hpp"
 #include "model/frames.hpp"
@@ -71,8 +73,7 @@ void ComplementaryObserver::step(const SensorFrame& frame) noexcept {
   Matrix3 R_new = R_WB_ * expSO3(h * w);
 
   // Specific force moves the IMU; the lever arm's part is taken out by its increment.
-  const Vector3 dv_imu =
-      h * (R_mid * frame.accel_B - gravity_ * Vector3::UnitZ());
+  const Vector3 dv_imu = h * (R_mid * frame.accel_B - gravity_ * Vector3::UnitZ());
   const Vector3 dv_lever = R_new * w.cross(p_BI_B_) - R_WB_ * w_WB_B_.cross(p_BI_B_);
   const Eigen::Vector2d predicted = velocity_W_ + (dv_imu - dv_lever).head<2>();
 
@@ -88,12 +89,10 @@ void ComplementaryObserver::step(const SensorFrame& frame) noexcept {
   if (innovation.norm() > limit) innovation *= limit / innovation.norm();
   velocity_W_ = predicted + std::min(1.0, (p1 + p2) * h) * innovation;
   // A tilt error d (rotation vector in W) shows as an acceleration g (dy, -dx).
-  const Vector3 tilt_rate_W =
-      p1 * p2 / gravity_ * Vector3(-innovation.y(), innovation.x(), 0.0);
+  const Vector3 tilt_rate_W = p1 * p2 / gravity_ * Vector3(-innovation.y(), innovation.x(), 0.0);
   R_new = expSO3(h * tilt_rate_W) * R_new;
   const double bias_gain = std::min(1.0, h / settings_.gyro_bias_time_constant_s);
-  gyro_bias_ += bias_gain * (R_new.transpose() *
-                             (odometry.spin * Vector3::UnitZ() - tilt_rate_W));
+  gyro_bias_ += bias_gain * (R_new.transpose() * (odometry.spin * Vector3::UnitZ() - tilt_rate_W));
 
   R_WB_ = orthonormalized(R_new);
   yaw_ = unwrapped(yawPitchRollFromRotation(R_WB_)[0], yaw_);
@@ -106,8 +105,8 @@ void ComplementaryObserver::step(const SensorFrame& frame) noexcept {
 StateEstimate ComplementaryObserver::estimate(SimTime now) const noexcept {
   const double ahead = toSeconds(now - time_);
   const bool moving = released_ && alignment_.samples() > 0;
-  const Vector3 ypr = yawPitchRollFromRotation(
-      moving ? Matrix3(R_WB_ * expSO3(ahead * w_WB_B_)) : R_WB_);
+  const Vector3 ypr =
+      yawPitchRollFromRotation(moving ? Matrix3(R_WB_ * expSO3(ahead * w_WB_B_)) : R_WB_);
 
   StateEstimate out;
   out.time = now;

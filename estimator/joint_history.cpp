@@ -5,8 +5,10 @@
 namespace ballbot {
 
 void JointHistory::add(SimTime time, const JointVector& angle) noexcept {
-  if (size_ > 0 && newest().time == time) next_ = (next_ + kCapacity - 1) % kCapacity;
-  else size_ = std::min(size_ + 1, kCapacity);
+  if (size_ > 0 && newest().time == time)
+    next_ = (next_ + kCapacity - 1) % kCapacity;
+  else
+    size_ = std::min(size_ + 1, kCapacity);
   entries_[static_cast<std::size_t>(next_)] = {time, angle};
   next_ = (next_ + 1) % kCapacity;
 }
