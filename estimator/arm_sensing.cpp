@@ -1,0 +1,43 @@
+#include "estimator/arm_sensing.hpp"
+
+#include <cmath>
+
+namespace ballbot {
+
+void ArmSensing::update(const SensorFrame& frame) noexcept {
+  const Vector3 angle = frame.joint_angle.tail<kArmJointCount>();
+  const Vector3 rate = frame.joint_velocity.tail<kArmJointCount>();
+  if (!angle.allFinite() || !rate.allFinite()) return;
+  if (!started_ || time_constant_s_ <= 0) {
+    rate_ = rate;
+  } else {
+    // Exact for a rate that is constant between the samples.
+    const double keep = std::exp(-toSeconds(frame.time - time_) / time_constant_s_);
+    rate_ = keep * rate_ + (1 - keep) * rate;
+  }
+  angle_ = angle;
+  time_ = frame.time;
+  started_ = true;
+}
+
+void ArmSensing::writeTo(SimTime now, StateVector& x) const noexcept {
+  x.segment<kArmJointCount>(kArm1) = angle_;
+  if (started_) x.segment<kArmJointCount>(kArm1) += toSeconds(now - time_) * rate_;
+  x.segment<kArmJointCount>(kPositionDim + kArmRate1) = rate_;
+}
+
+void ArmSensing::save(BlobWriter& out) const {
+  out.put(started_);
+  out.put(toNs(time_));
+  out.putDoubles(angle_.data(), kArmJointCount);
+  out.putDoubles(rate_.data(), kArmJointCount);
+}
+
+void ArmSensing::restore(BlobReader& in) {
+  started_ = in.get<bool>();
+  time_ = simTimeFromNs(in.get<std::int64_t>());
+  in.getDoubles(angle_.data(), kArmJointCount);
+  in.getDoubles(rate_.data(), kArmJointCount);
+}
+
+}  // namespace ballbot

@@ -1,0 +1,160 @@
+#include "estimator/complementary_observer.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+#include "core/config_reader.hpp"
+#include "estimator/attitude.hpp"
+#include "model/frames.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr const char* kBlobKind = "complementary_observer";
+constexpr std::uint32_t kBlobVersion = 1;
+
+}  // namespace
+
+ComplementarySettings ComplementarySettings::read(ConfigReader& in) {
+  ComplementarySettings s;
+  s.velocity_bandwidth_rad_per_s =
+      in.numberOr("velocity_bandwidth_rad_per_s", s.velocity_bandwidth_rad_per_s, {0.1, 200});
+  s.tilt_bandwidth_rad_per_s =
+      in.numberOr("tilt_bandwidth_rad_per_s", s.tilt_bandwidth_rad_per_s, {0, 20});
+  s.gyro_bias_time_constant_s =
+      in.numberOr("gyro_bias_time_constant_s", s.gyro_bias_time_constant_s, {1, 1e6});
+  s.velocity_innovation_limit_m_per_s = in.numberOr(
+      "velocity_innovation_limit_m_per_s", s.velocity_innovation_limit_m_per_s, {1e-3, 10});
+  s.arm_rate_time_constant_s =
+      in.numberOr("arm_rate_time_constant_s", s.arm_rate_time_constant_s, {0, 0.1});
+  s.alignment_samples = in.integerOr("alignment_samples", s.alignment_samples, {1, 1e6});
+  return s;
+}
+
+ComplementaryObserver::ComplementaryObserver(const RobotParameters& robot,
+                                             const ComplementarySettings& settings)
+    : settings_(settings),
+      kinematics_(robot),
+      ball_radius_(robot.ball.radius),
+      gravity_(robot.gravity),
+      p_BI_B_(robot.p_BI_B),
+      arm_(settings.arm_rate_time_constant_s) {}
+
+void ComplementaryObserver::update(const SensorFrame& frame, bool at_rest) noexcept {
+  if (!joints_.empty() && frame.time < joints_.newestTime()) return;
+  arm_.update(frame);
+  if (!frame.joint_angle.allFinite()) return;
+  joints_.add(frame.time, frame.joint_angle);
+  released_ = released_ || !at_rest;
+  if (frame.imu_count == imu_count_) return;
+  imu_count_ = frame.imu_count;
+  if (!frame.accel_B.allFinite() || !frame.gyro_WB_B.allFinite()) return;
+  if (released_ && alignment_.samples() > 0) {
+    if (frame.imu_time > time_) step(frame);
+  } else {
+    align(frame);
+  }
+}
+
+void ComplementaryObserver::align(const SensorFrame& frame) noexcept {
+  // Without any rest the first sample serves as well as it can; the estimate then is not aligned.
+  alignment_.add(frame.accel_B, released_ ? Vector3::Zero() : frame.gyro_WB_B);
+  R_WB_ = alignment_.attitude();
+  gyro_bias_ = alignment_.gyroBias();
+  time_ = frame.imu_time;
+  joint_angle_ = joints_.at(time_);
+}
+
+void ComplementaryObserver::step(const SensorFrame& frame) noexcept {
+  const double h = toSeconds(frame.imu_time - time_);
+  const Vector3 w = frame.gyro_WB_B - gyro_bias_;
+  const Matrix3 R_mid = R_WB_ * expSO3(0.5 * h * w);
+  Matrix3 R_new = R_WB_ * expSO3(h * w);
+
+  // Specific force moves the IMU; the lever arm's part is taken out by its increment.
+  const Vector3 dv_imu = h * (R_mid * frame.accel_B - gravity_ * Vector3::UnitZ());
+  const Vector3 dv_lever = R_new * w.cross(p_BI_B_) - R_WB_ * w_WB_B_.cross(p_BI_B_);
+  const Eigen::Vector2d predicted = velocity_W_ + (dv_imu - dv_lever).head<2>();
+
+  const JointVector angle = joints_.at(frame.imu_time);
+  const Vector3 wheel_rates = (angle - joint_angle_).head<kWheelCount>() / h;
+  const BallMotion odometry = ballMotion(kinematics_, ball_radius_, R_mid, wheel_rates, w);
+
+  // Gains place the poles of (velocity, tilt) at the two bandwidths.
+  const double p1 = settings_.velocity_bandwidth_rad_per_s;
+  const double p2 = settings_.tilt_bandwidth_rad_per_s;
+  Eigen::Vector2d innovation = odometry.velocity_W - 0.5 * (velocity_W_ + predicted);
+  const double limit = settings_.velocity_innovation_limit_m_per_s;
+  if (innovation.norm() > limit) innovation *= limit / innovation.norm();
+  velocity_W_ = predicted + std::min(1.0, (p1 + p2) * h) * innovation;
+  // A tilt error d (rotation vector in W) shows as an acceleration g (dy, -dx).
+  const Vector3 tilt_rate_W = p1 * p2 / gravity_ * Vector3(-innovation.y(), innovation.x(), 0.0);
+  R_new = expSO3(h * tilt_rate_W) * R_new;
+  const double bias_gain = std::min(1.0, h / settings_.gyro_bias_time_constant_s);
+  gyro_bias_ += bias_gain * (R_new.transpose() * (odometry.spin * Vector3::UnitZ() - tilt_rate_W));
+
+  R_WB_ = orthonormalized(R_new);
+  yaw_ = unwrapped(yawPitchRollFromRotation(R_WB_)[0], yaw_);
+  position_W_ += h * odometry.velocity_W;
+  w_WB_B_ = w;
+  joint_angle_ = angle;
+  time_ = frame.imu_time;
+}
+
+StateEstimate ComplementaryObserver::estimate(SimTime now) const noexcept {
+  const double ahead = toSeconds(now - time_);
+  const bool moving = released_ && alignment_.samples() > 0;
+  const Vector3 ypr =
+      yawPitchRollFromRotation(moving ? Matrix3(R_WB_ * expSO3(ahead * w_WB_B_)) : R_WB_);
+
+  StateEstimate out;
+  out.time = now;
+  out.aligned = alignment_.samples() >= settings_.alignment_samples;
+  out.x.segment<2>(kBallX) = position_W_ + ahead * velocity_W_;
+  out.x.segment<3>(kYaw) << unwrapped(ypr[0], yaw_), ypr[1], ypr[2];
+  out.x.segment<2>(kPositionDim + kBallVx) = velocity_W_;
+  out.x.segment<3>(kPositionDim + kOmegaX) = w_WB_B_;
+  arm_.writeTo(now, out.x);
+  return out;
+}
+
+StateBlob ComplementaryObserver::saveState() const {
+  BlobWriter out;
+  arm_.save(out);
+  joints_.save(out);
+  alignment_.save(out);
+  out.put(imu_count_);
+  out.put(released_);
+  out.put(toNs(time_));
+  out.putDoubles(R_WB_.data(), 9);
+  out.put(yaw_);
+  out.putDoubles(position_W_.data(), 2);
+  out.putDoubles(velocity_W_.data(), 2);
+  out.putDoubles(w_WB_B_.data(), 3);
+  out.putDoubles(gyro_bias_.data(), 3);
+  out.putDoubles(joint_angle_.data(), kJointCount);
+  return out.seal(kBlobKind, kBlobVersion);
+}
+
+void ComplementaryObserver::restoreState(const StateBlob& blob) {
+  BlobReader in(blob, kBlobKind, kBlobVersion);
+  ComplementaryObserver next = *this;  // so that a blob that does not fit leaves no trace
+  next.arm_.restore(in);
+  next.joints_.restore(in);
+  next.alignment_.restore(in);
+  next.imu_count_ = in.get<std::int64_t>();
+  next.released_ = in.get<bool>();
+  next.time_ = simTimeFromNs(in.get<std::int64_t>());
+  in.getDoubles(next.R_WB_.data(), 9);
+  next.yaw_ = in.get<double>();
+  in.getDoubles(next.position_W_.data(), 2);
+  in.getDoubles(next.velocity_W_.data(), 2);
+  in.getDoubles(next.w_WB_B_.data(), 3);
+  in.getDoubles(next.gyro_bias_.data(), 3);
+  in.getDoubles(next.joint_angle_.data(), kJointCount);
+  in.finish();
+  *this = next;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "estimator/arm_sensing.hpp"
+#include "estimator/estimator.hpp"
+#include "estimator/joint_history.hpp"
+#include "estimator/rest_alignment.hpp"
+#include "estimator/wheel_odometry.hpp"
+#include "model/robot_parameters.hpp"
+
+namespace ballbot {
+
+class ConfigReader;
+
+struct ComplementarySettings {
+  /// Below this odometry decides about the velocity, above it the accelerometer [rad/s].
+  double velocity_bandwidth_rad_per_s = 15;
+  /// Below this gravity decides about the tilt, above it the gyroscope [rad/s].
+  double tilt_bandwidth_rad_per_s = 0.3;
+  /// How slowly the gyroscope bias follows [s].
+  double gyro_bias_time_constant_s = 60;
+  /// A larger difference between odometry and predicted velocity counts as this much [m/s].
+  double velocity_innovation_limit_m_per_s = 0.2;
+  double arm_rate_time_constant_s = 0.002;
+  /// IMU samples at rest before the estimate calls itself aligned.
+  int alignment_samples = 40;
+
+  /// @throw InputError
+  static ComplementarySettings read(ConfigReader& in);
+};
+
+/// Fixed-gain observer on measurements alone: the gyroscope turns the attitude, the accelerometer
+/// drives the velocity, and the difference between that velocity and wheel odometry corrects
+/// velocity, tilt and gyroscope bias. Comparing velocities rather than accelerations takes the
+/// base's own acceleration into account without differentiating encoders. The spin that odometry
+/// finds on a ball that cannot spin corrects the bias about the vertical. Position is integrated
+/// odometry. The robot is at px = py = yaw = 0 while it is held; gives no sigma.
+class ComplementaryObserver final : public Estimator {
+ public:
+  ComplementaryObserver(const RobotParameters& robot, const ComplementarySettings& settings);
+
+  /// A frame that is older than the last one, or not finite, is passed over. Rest after the
+  /// release has no meaning of its own.
+  void update(const SensorFrame& frame, bool at_rest) noexcept override;
+  StateEstimate estimate(SimTime now) const noexcept override;
+  StateBlob saveState() const override;
+  void restoreState(const StateBlob& blob) override;
+
+ private:
+  void align(const SensorFrame& frame) noexcept;
+  void step(const SensorFrame& frame) noexcept;
+
+  // Configuration.
+  ComplementarySettings settings_;
+  OmniwheelKinematics kinematics_;
+  double ball_radius_;  ///< [m]
+  double gravity_;      ///< [m/s^2]
+  Vector3 p_BI_B_;      ///< IMU from the ball centre [m]
+
+  // State.
+  ArmSensing arm_;
+  JointHistory joints_;
+  RestAlignment alignment_;
+  std::int64_t imu_count_ = 0;
+  bool released_ = false;
+  SimTime time_{};  ///< of what follows: the last IMU sample
+  Matrix3 R_WB_ = Matrix3::Identity();
+  double yaw_ = 0;  ///< continuous [rad]
+  Eigen::Vector2d position_W_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d velocity_W_ = Eigen::Vector2d::Zero();
+  Vector3 w_WB_B_ = Vector3::Zero();
+  Vector3 gyro_bias_ = Vector3::Zero();
+  JointVector joint_angle_ = JointVector::Zero();  ///< at time_
+};
+
+}  // namespace ballbot
