@@ -16,9 +16,10 @@ namespace ballbot {
 /// implementation may rely on it:
 ///
 ///   instantiated --enterInitializationMode--> initialization --exitInitializationMode--> step
-///   step --doStep*--> step --terminate--> terminated --reset--> instantiated
+///   step --doStep*--> step --terminate--> terminated; any state --reset--> instantiated
 ///
-/// saveState and restoreState may be called in any state but instantiated.
+/// saveState and restoreState may be called in any state but instantiated; restoreState also leads
+/// back into the state that was saved.
 class Participant {
  public:
   virtual ~Participant() = default;

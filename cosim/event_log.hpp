@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/time.hpp"
+#include "messages/wire.hpp"
+
+namespace ballbot {
+
+/// Writes an LCM event log, readable by LCM's own tools, with simulated time in place of the wall
+/// clock and event numbers from 0: the same events give the same bytes.
+class EventLogWriter {
+ public:
+  /// @throw OutputError if the file cannot be created.
+  explicit EventLogWriter(const std::string& path);
+  ~EventLogWriter();
+  EventLogWriter(const EventLogWriter&) = delete;
+  EventLogWriter& operator=(const EventLogWriter&) = delete;
+
+  /// @throw OutputError if the disk is full or the write failed; the file then ends with the last
+  ///        event that fitted as a whole.
+  void write(SimTime time, const char* channel, const Bytes& data);
+  /// Hands everything written so far to the operating system, so that it survives this process.
+  void flush();
+  void close();
+  std::int64_t bytesWritten() const { return written_ + static_cast<std::int64_t>(buffer_.size()); }
+
+ private:
+  std::string path_;
+  int file_ = -1;
+  std::int64_t number_ = 0;
+  std::int64_t written_ = 0;  // in the file, whole events
+  std::vector<std::uint8_t> buffer_;
+};
+
+}  // namespace ballbot

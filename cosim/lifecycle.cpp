@@ -1,0 +1,192 @@
+#include "cosim/lifecycle.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "cosim/finite.hpp"
+
+namespace ballbot {
+
+enum class Lifecycle::Call : std::uint8_t {
+  kEnterInitializationMode,
+  kExitInitializationMode,
+  kDoStep,
+  kTerminate,
+  kRead,
+  kSaveState,
+  kRestoreState,
+};
+
+namespace {
+
+constexpr const char* kBlobKind = "participant";
+constexpr std::uint32_t kBlobVersion = 1;
+
+constexpr unsigned bit(LifecycleState state) { return 1U << static_cast<unsigned>(state); }
+constexpr unsigned kInstantiated = bit(LifecycleState::kInstantiated);
+constexpr unsigned kInitialization = bit(LifecycleState::kInitialization);
+constexpr unsigned kStep = bit(LifecycleState::kStep);
+constexpr unsigned kTerminated = bit(LifecycleState::kTerminated);
+constexpr unsigned kFailed = bit(LifecycleState::kFailed);
+
+struct Rule {
+  const char* name;
+  unsigned allowed;
+};
+// In the order of Lifecycle::Call.
+constexpr Rule kRules[] = {
+    {"enterInitializationMode", kInstantiated},
+    {"exitInitializationMode", kInitialization},
+    {"doStep", kStep},
+    {"terminate", kStep},
+    {"reading sensors, truth or digest", kStep | kTerminated},
+    {"saveState", kInitialization | kStep | kTerminated},
+    {"restoreState", kInitialization | kStep | kTerminated | kFailed},
+};
+
+const char* wayOut(LifecycleState state) {
+  switch (state) {
+    case LifecycleState::kInstantiated:
+      return "call enterInitializationMode first";
+    case LifecycleState::kInitialization:
+      return "call exitInitializationMode first";
+    case LifecycleState::kStep:
+      return "it is initialised already; reset leads back";
+    case LifecycleState::kTerminated:
+      return "call reset, then initialise again";
+    case LifecycleState::kFailed:
+      return "an earlier call failed; call reset or restoreState";
+  }
+  return "";
+}
+
+}  // namespace
+
+const char* toText(LifecycleState state) {
+  switch (state) {
+    case LifecycleState::kInstantiated:
+      return "instantiated";
+    case LifecycleState::kInitialization:
+      return "initialization";
+    case LifecycleState::kStep:
+      return "step";
+    case LifecycleState::kTerminated:
+      return "terminated";
+    case LifecycleState::kFailed:
+      return "failed";
+  }
+  return "unknown";
+}
+
+void Lifecycle::demand(Call call) const {
+  const Rule& rule = kRules[static_cast<std::size_t>(call)];
+  if ((rule.allowed & bit(state_)) != 0) return;
+  throw CallOrderError(toText(state_), rule.name,
+                       fmt::format("{}: {} is not allowed in state '{}'; {}", name(), rule.name,
+                                   toText(state_), wayOut(state_)));
+}
+
+// A call that throws leaves the participant in a state nobody knows.
+template <typename Work>
+void Lifecycle::attempt(Work&& work) {
+  try {
+    std::forward<Work>(work)();
+  } catch (...) {
+    state_ = LifecycleState::kFailed;
+    throw;
+  }
+}
+
+void Lifecycle::enterInitializationMode(SimTime start) {
+  demand(Call::kEnterInitializationMode);
+  attempt([&] { participant_.enterInitializationMode(start); });
+  time_ = start;
+  state_ = LifecycleState::kInitialization;
+}
+
+void Lifecycle::exitInitializationMode() {
+  demand(Call::kExitInitializationMode);
+  attempt([&] { participant_.exitInitializationMode(); });
+  state_ = LifecycleState::kStep;
+}
+
+void Lifecycle::doStep(SimTime now, SimDuration step, const ActuatorCommand& command) {
+  demand(Call::kDoStep);
+  if (now != time_) {
+    throw CallOrderError(toText(state_), "doStep",
+                         fmt::format("{}: doStep from {}, but it stands at {}", name(),
+                                     ballbot::toText(now), ballbot::toText(time_)));
+  }
+  if (step.count() <= 0) {
+    throw CallOrderError(
+        toText(state_), "doStep",
+        fmt::format("{}: doStep by {}, must be above 0", name(), ballbot::toText(step)));
+  }
+  const std::string bad_command = firstNonFinite(command);
+  if (!bad_command.empty()) {
+    throw NumericalError(
+        fmt::format("{}: command at {}: {}", name(), ballbot::toText(now), bad_command));
+  }
+  attempt([&] {
+    participant_.doStep(now, step, command);
+    const std::string bad_sensor = firstNonFinite(participant_.sensors());
+    if (!bad_sensor.empty()) {
+      throw NumericalError(fmt::format("{}: after the step to {}: {}", name(),
+                                       ballbot::toText(now + step), bad_sensor));
+    }
+  });
+  time_ = now + step;
+}
+
+void Lifecycle::terminate() {
+  demand(Call::kTerminate);
+  attempt([&] { participant_.terminate(); });
+  state_ = LifecycleState::kTerminated;
+}
+
+void Lifecycle::reset() {
+  attempt([&] { participant_.reset(); });
+  state_ = LifecycleState::kInstantiated;
+  time_ = SimTime{};
+}
+
+const SensorFrame& Lifecycle::sensors() const {
+  demand(Call::kRead);
+  return participant_.sensors();
+}
+
+std::optional<TruthFrame> Lifecycle::truth() const {
+  demand(Call::kRead);
+  return participant_.truth();
+}
+
+std::uint64_t Lifecycle::stateDigest() const {
+  demand(Call::kRead);
+  return participant_.stateDigest();
+}
+
+StateBlob Lifecycle::saveState() const {
+  demand(Call::kSaveState);
+  BlobWriter out;
+  out.put(state_);
+  out.put(toNs(time_));
+  out.putBlob(participant_.saveState());
+  return out.seal(kBlobKind, kBlobVersion);
+}
+
+void Lifecycle::restoreState(const StateBlob& blob) {
+  demand(Call::kRestoreState);
+  BlobReader in(blob, kBlobKind, kBlobVersion);
+  const auto state = in.get<LifecycleState>();
+  const SimTime time = simTimeFromNs(in.get<std::int64_t>());
+  const StateBlob inner = in.getBlob();
+  in.finish();
+  // A refused blob leaves the participant as it was, so the lifecycle state stays, too.
+  participant_.restoreState(inner);
+  state_ = state;
+  time_ = time;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cosim/participant.hpp"
+
+namespace ballbot {
+
+/// Where a participant stands in the life that FMI 3.0 Co-Simulation gives it.
+enum class LifecycleState : std::uint8_t {
+  kInstantiated,
+  kInitialization,
+  kStep,
+  kTerminated,
+  kFailed,  ///< a call threw; only reset and restoreState lead out
+};
+const char* toText(LifecycleState state);
+
+/// A participant whose contract is enforced: the call order, that steps follow one another without
+/// gap, that commands and results are finite. What is wrapped may rely on it, and whoever calls is
+/// told in words what was wrong.
+///
+///   call                      allowed in                      leads to
+///   enterInitializationMode   instantiated                    initialization
+///   exitInitializationMode    initialization                  step
+///   doStep                    step                            step
+///   terminate                 step                            terminated
+///   reset                     any                             instantiated
+///   sensors, truth            step, terminated
+///   saveState                 initialization, step, terminated
+///   restoreState              initialization, step,           the state it was saved in
+///                             terminated, failed
+///
+/// @throw CallOrderError (all calls) naming participant, state and call.
+class Lifecycle final : public Participant {
+ public:
+  /// `participant` must outlive this.
+  explicit Lifecycle(Participant& participant) : participant_(participant) {}
+
+  LifecycleState state() const { return state_; }
+  /// The time reached.
+  SimTime time() const { return time_; }
+
+  std::string name() const override { return participant_.name(); }
+  void enterInitializationMode(SimTime start) override;
+  void exitInitializationMode() override;
+  /// @throw CallOrderError also if `now` is not the time reached or `step` is not positive;
+  ///        NumericalError if the command, or a sensor value after the step, is not finite.
+  void doStep(SimTime now, SimDuration step, const ActuatorCommand& command) override;
+  void terminate() override;
+  void reset() override;
+  const SensorFrame& sensors() const override;
+  std::optional<TruthFrame> truth() const override;
+  /// The participant's state together with time and lifecycle state.
+  StateBlob saveState() const override;
+  void restoreState(const StateBlob& blob) override;
+  std::uint64_t stateDigest() const override;
+
+ private:
+  enum class Call : std::uint8_t;
+  void demand(Call call) const;
+  template <typename Work>
+  void attempt(Work&& work);
+
+  Participant& participant_;
+  LifecycleState state_ = LifecycleState::kInstantiated;
+  SimTime time_{};
+};
+
+}  // namespace ballbot

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "ballbot_msgs/actuator_command.hpp"
+#include "ballbot_msgs/sensor_frame.hpp"
+#include "ballbot_msgs/tick_digests.hpp"
+#include "ballbot_msgs/truth_frame.hpp"
+#include "core/digest.hpp"
+#include "cosim/event_log.hpp"
+#include "cosim/tick.hpp"
+#include "messages/channels.hpp"
+
+namespace ballbot {
+
+class ConfigReader;
+
+/// What goes into the log, how often. A message is logged at the first event at or after each
+/// multiple of its channel's period; period zero logs every one, a negative period none.
+/// Recording never changes the run.
+struct RecorderOptions {
+  std::string log_path;            ///< empty: no log, digest only
+  SimDuration sensors{2'500'000};  ///< the estimator's period: what it consumed
+  SimDuration truth{2'500'000};
+  SimDuration estimate{2'500'000};
+  SimDuration plan{0};
+  SimDuration command{2'500'000};
+
+  /// Reads the optional keys sensors_period_ms, truth_period_ms, estimate_period_ms,
+  /// plan_period_ms, command_period_ms; `log_path` stays.
+  void read(ConfigReader& in);
+};
+
+/// Writes the log of a run and computes its trajectory digest. The digest covers every message of
+/// every event, whatever the log keeps.
+class Recorder {
+ public:
+  /// @throw OutputError if the log cannot be created.
+  explicit Recorder(RecorderOptions options);
+
+  /// @throw OutputError if the disk is full; what was logged stays readable.
+  void record(const Tick& tick);
+  /// Completes the log. A recorder that is destroyed without leaves a readable log, too.
+  void close();
+
+  /// 32 hexadecimal digits; equal for runs that did the same at every event.
+  std::string trajectoryDigest() const { return digest_.hex(); }
+  std::int64_t bytesWritten() const { return log_ ? log_->bytesWritten() : 0; }
+
+ private:
+  template <typename Message>
+  void take(Channel channel, SimTime time, SimDuration period, const Message& message);
+  void hashTick(const Tick& tick);
+  void writeDigests();
+
+  RecorderOptions options_;
+  std::unique_ptr<EventLogWriter> log_;
+  Digest digest_;
+  std::array<SimTime, kChannelCount> next_due_{};
+  std::array<std::int32_t, kChannelCount> hashes_{};
+  SimTime next_flush_{};
+  ballbot_msgs::sensor_frame sensors_{};
+  ballbot_msgs::truth_frame truth_{};
+  ballbot_msgs::actuator_command command_{};
+  ballbot_msgs::state_estimate estimate_{};
+  ballbot_msgs::plan_report plan_{};
+  ballbot_msgs::tick_digests tick_digests_{};
+  Bytes bytes_;
+};
+
+}  // namespace ballbot

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cosim/participant.hpp"
+#include "cosim/retransmission.hpp"
+#include "cosim/step_client.hpp"
+#include "cosim/transport.hpp"
+
+namespace ballbot {
+
+struct RemoteOptions {
+  std::string name = "plant";  ///< who is at the far end, for messages
+  std::uint64_t config_digest = 0;
+  /// Silence after which the far end counts as lost; the first reply may take longer, since the
+  /// process may still be starting.
+  std::chrono::milliseconds patience{10'000};
+  std::chrono::milliseconds first_patience{30'000};
+  /// Asked between tries: why the far end is known to be gone ("exited with code 2"), or empty.
+  std::function<std::string()> peer_trouble;
+  /// Set by a signal handler: give up at once with InterruptedError.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// A participant in another process, reached by the step protocol. The master cannot tell it from
+/// one in its own process.
+///
+/// Calls throw, besides what the participant itself throws at the far end (same kind of Error):
+/// @throw LostParticipantError nobody answers, or the far end is known to be gone
+/// @throw InputError the far end refused: other version, other configuration, in use by another
+///        run, or two participants answer
+class RemoteParticipant final : public Participant {
+ public:
+  /// `transport` must outlive this.
+  RemoteParticipant(Transport& transport, RemoteOptions options);
+  /// Tells the far end to stop if its session is still open; waits 100 ms at most.
+  ~RemoteParticipant() override;
+
+  std::string name() const override { return options_.name; }
+  void enterInitializationMode(SimTime start) override;
+  void exitInitializationMode() override {}
+  void doStep(SimTime now, SimDuration step, const ActuatorCommand& command) override;
+  void terminate() override;
+  void reset() override;
+  const SensorFrame& sensors() const override { return sensors_; }
+  std::optional<TruthFrame> truth() const override { return truth_; }
+  StateBlob saveState() const override;
+  void restoreState(const StateBlob& blob) override;
+  std::uint64_t stateDigest() const override { return state_digest_; }
+
+  /// Facts of the machine, for timing.json.
+  struct LinkStatistics {
+    std::int64_t requests = 0;  ///< distinct ones
+    std::int64_t repeated = 0;  ///< sent again
+    IgnoredMessages ignored;
+  };
+  LinkStatistics statistics() const;
+
+ private:
+  void exchange(WallDuration patience) const;
+  void await(WallDuration patience) const;
+  void accept();
+  [[noreturn]] void raise() const;
+  [[noreturn]] void lost(WallDuration waited, int tries) const;
+
+  Transport& transport_;
+  RemoteOptions options_;
+  // saveState() is const to the caller, yet it talks.
+  mutable std::unique_ptr<StepClient> client_;
+  mutable RetransmissionTimer timer_;
+  mutable LinkStatistics statistics_;
+  mutable Bytes received_;
+  bool reset_pending_ = false;
+  SensorFrame sensors_;
+  std::optional<TruthFrame> truth_;
+  std::uint64_t state_digest_ = 0;
+};
+
+}  // namespace ballbot

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "core/state_blob.hpp"
+#include "core/time.hpp"
+#include "cosim/lifecycle.hpp"
+#include "cosim/recorder.hpp"
+#include "cosim/schedule.hpp"
+#include "cosim/stepped_controller.hpp"
+#include "cosim/tick.hpp"
+
+namespace ballbot {
+
+struct MasterOptions {
+  SimTime start = kSimStart;
+  SimTime end{};  ///< the last event is here at the latest
+  /// Set by a signal handler: stop with InterruptedError before the next event.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Whole state of a run between two events.
+struct Checkpoint {
+  SimTime time{};
+  std::int64_t tick = 0;  ///< number of the next event
+  StateBlob participant, controller;
+  ControlOutput control;
+
+  StateBlob toBlob() const;
+  /// @throw InputError as BlobReader.
+  static Checkpoint fromBlob(const StateBlob& blob);
+};
+
+/// Moves simulated time: at each event of the calendar it reads the sensors, lets the controller
+/// compute a command, records, and advances the participant to the next event. The participant may
+/// be in this process (plant, FMU) or in another (RemoteParticipant).
+class StepMaster {
+ public:
+  /// All must outlive this; `recorder` may be null.
+  StepMaster(Participant& participant, SteppedController& controller, const EventCalendar& calendar,
+             Recorder* recorder, MasterOptions options);
+
+  /// Called at every event after the controller; return false to end the run there. It may look at
+  /// the truth: it judges the run, it does not control.
+  using Observer = std::function<bool(const Tick&)>;
+  void setObserver(Observer observer) { observer_ = std::move(observer); }
+
+  enum class End { kDuration, kObserver };
+  /// From the first event to the last, then ends the participant's session.
+  /// @throw whatever participant and recorder throw; NumericalError if the command is not finite;
+  ///        InterruptedError if the stop flag was set.
+  End run();
+
+  // The same in pieces.
+  void initialize();
+  /// Processes the event at time() and, unless it was the last, advances to the next. False after
+  /// the last.
+  bool step();
+  void terminate();
+  SimTime time() const { return time_; }
+  std::int64_t tick() const { return tick_; }
+  std::optional<End> ended() const { return ended_; }
+
+  /// Between two events, i.e. before step(): everything needed to continue bit for bit.
+  Checkpoint save() const;
+  /// Continues from a checkpoint; call it instead of initialize() in a new run, or in a running
+  /// one, e.g. after its participant was replaced.
+  void restore(const Checkpoint& checkpoint);
+  /// Puts another participant, in state instantiated, in the place of the present one, which is
+  /// left as it is (its process may be dead). Follow with restore().
+  void replaceParticipant(Participant& fresh);
+
+ private:
+  void bringToStepMode();
+  void processEvent();
+
+  std::unique_ptr<Lifecycle> participant_;
+  SteppedController& controller_;
+  const EventCalendar& calendar_;
+  Recorder* recorder_;
+  MasterOptions options_;
+  Observer observer_;
+  SimTime time_{};
+  std::int64_t tick_ = 0;
+  ControlOutput control_;
+  std::optional<End> ended_;
+};
+
+}  // namespace ballbot
