@@ -26,16 +26,16 @@ Rates readRates(ConfigReader in) {
   return r;
 }
 
-std::vector<Requirement> readRequirements(const ConfigNode& node) {
+std::vector<MetricLimit> readRequirements(const ConfigNode& node) {
   if (node.kind() != ConfigNode::Kind::kMap) {
     throw InputError(fmt::format("{}: requirements must be a mapping from metric to limits, e.g. "
                                  "'largest_tilt_deg: {{below: 20}}'",
                                  toText(node.where())));
   }
-  std::vector<Requirement> out;
+  std::vector<MetricLimit> out;
   for (const auto& [metric, limits] : node.entries()) {
     ConfigReader in(limits, "requirements." + metric);
-    Requirement r;
+    MetricLimit r;
     r.metric = metric;
     r.where = limits.where();
     if (in.has("below")) r.below = in.number("below");

@@ -21,7 +21,7 @@ struct Rates {
 };
 
 /// One line of a scenario's `requirements`: a metric and what it must stay below or above.
-struct Requirement {
+struct MetricLimit {
   std::string metric;
   std::optional<double> below, above;
   SourceLocation where;
@@ -36,7 +36,7 @@ struct Scenario {
   std::uint64_t seed = 1;
   SimTime release{};  ///< until then a stand holds the robot still
   Rates rates;
-  std::vector<Requirement> requirements;
+  std::vector<MetricLimit> requirements;
   ConfigNode tree = ConfigNode::map({});
   std::string urdf_path;
 

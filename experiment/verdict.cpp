@@ -9,11 +9,11 @@
 
 namespace ballbot {
 
-std::vector<VerdictRow> judge(const std::vector<Requirement>& requirements,
+std::vector<VerdictRow> judge(const std::vector<MetricLimit>& requirements,
                               const std::map<std::string, double>& metrics,
                               const std::vector<std::string>& known_metrics) {
   std::vector<VerdictRow> rows;
-  for (const Requirement& r : requirements) {
+  for (const MetricLimit& r : requirements) {
     if (std::find(known_metrics.begin(), known_metrics.end(), r.metric) == known_metrics.end()) {
       throw InputError(fmt::format("{}: requirement on unknown metric '{}'; known are: {}",
                                    toText(r.where), r.metric, fmt::join(known_metrics, ", ")));

@@ -18,7 +18,7 @@ struct VerdictRow {
 };
 
 /// @throw InputError if a requirement names a metric that no run produces, listing those known.
-std::vector<VerdictRow> judge(const std::vector<Requirement>& requirements,
+std::vector<VerdictRow> judge(const std::vector<MetricLimit>& requirements,
                               const std::map<std::string, double>& metrics,
                               const std::vector<std::string>& known_metrics);
 

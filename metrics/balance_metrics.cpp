@@ -60,4 +60,18 @@ std::map<std::string, double> BalanceMetrics::values() const {
   return m;
 }
 
+std::vector<std::string> BalanceMetrics::names() {
+  return {"fell",
+          "final_ball_position_error_m",
+          "final_tilt_deg",
+          "largest_arm_torque_Nm",
+          "largest_ball_excursion_m",
+          "largest_tilt_deg",
+          "largest_wheel_torque_Nm",
+          "rms_ball_excursion_m",
+          "rms_tilt_deg",
+          "rms_wheel_torque_error_Nm",
+          "time_of_fall_s"};
+}
+
 }  // namespace ballbot

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/time.hpp"
 #include "model/signals.hpp"
@@ -30,6 +31,8 @@ class BalanceMetrics {
   /// Every number under its documented name (docs/metrics.md), e.g. "largest_tilt_deg". NaN-free:
   /// a metric without data is absent.
   std::map<std::string, double> values() const;
+  /// All names that values() can have.
+  static std::vector<std::string> names();
 
  private:
   SimTime release_;

@@ -1,0 +1,84 @@
+#include "experiment/plant_link.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/config_reader.hpp"
+#include "core/digest.hpp"
+#include "core/error.hpp"
+#include "model/robot_reader.hpp"
+#include "plant/plant_config.hpp"
+#include "plant/plant_participant.hpp"
+
+namespace ballbot {
+
+std::uint64_t configDigest64(const Scenario& scenario) {
+  const std::string digest = scenario.configDigest();
+  return hash64(digest.data(), digest.size());
+}
+
+PlantLink::PlantLink(const Scenario& scenario, const RunFolder& folder, Options options)
+    : scenario_(scenario),
+      folder_(folder),
+      options_(std::move(options)),
+      stderr_path_(folder.path() + "/plant.stderr") {
+  start();
+}
+
+PlantLink::~PlantLink() = default;
+
+void PlantLink::start() {
+  if (options_.in_process) {
+    local_ = makePlant(scenario_);
+    return;
+  }
+  LcmAddress address = options_.address;
+  if (address.url.empty()) {
+    address = privateLcmAddress();
+    child_ = std::make_unique<ChildProcess>(
+        "plant",
+        std::vector<std::string>{"plant", folder_.scenarioFile(), "--lcm-url", address.url, "--channel",
+                                 address.channel},
+        stderr_path_, options_.core);
+  }
+  transport_ = std::make_unique<LcmTransport>(address, LinkEnd::kMaster);
+  RemoteOptions remote;
+  remote.config_digest = configDigest64(scenario_);
+  remote.patience = options_.patience;
+  // A plant that is served elsewhere runs already; one that we start needs time to set itself up.
+  remote.first_patience = child_ ? std::max(options_.patience, std::chrono::milliseconds(30'000)) : options_.patience;
+  remote.stop = options_.stop;
+  if (child_) {
+    remote.peer_trouble = [this] { return child_->running() ? std::string() : child_->lastWords(); };
+  }
+  remote_ = std::make_unique<RemoteParticipant>(*transport_, remote);
+}
+
+Participant& PlantLink::participant() {
+  return local_ ? *local_ : static_cast<Participant&>(*remote_);
+}
+
+void PlantLink::replace() {
+  if (child_) child_->kill();
+  remote_.reset();
+  transport_.reset();
+  child_.reset();
+  start();
+}
+
+void PlantLink::close() {
+  if (!child_) return;
+  child_->finish(3000);
+  std::error_code ignored;
+  if (std::filesystem::file_size(stderr_path_, ignored) == 0) {
+    std::filesystem::remove(stderr_path_, ignored);
+  }
+}
+
+RemoteParticipant::LinkStatistics PlantLink::statistics() const {
+  return remote_ ? remote_->statistics() : RemoteParticipant::LinkStatistics{};
+}
+
+}  // namespace ballbot

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "controller/control_law.hpp"
+#include "controller/pd_tracker.hpp"
+#include "cosim/schedule.hpp"
+#include "cosim/stepped_controller.hpp"
+#include "estimator/estimator.hpp"
+#include "experiment/scenario.hpp"
+
+namespace ballbot {
+
+/// The whole controller of a run: estimator, balancing law and tracker, each at its own period.
+/// It learns about the robot from sensor frames only.
+class RobotController final : public SteppedController {
+ public:
+  /// Builds the three parts from the scenario, and their tasks into `calendar`.
+  /// @throw InputError with file, line and column.
+  RobotController(const Scenario& scenario, EventCalendar& calendar);
+
+  void onSensors(SimTime now, const SensorFrame& sensors, DueTasks due,
+                 ControlOutput& out) noexcept override;
+  StateBlob saveState() const override;
+  void restoreState(const StateBlob& blob) override;
+
+  /// Counts over the run, for the summary: plans made and refused, ticks with saturated torque or
+  /// a command that was not finite.
+  std::map<std::string, double> counters() const;
+
+  /// Measures the wall-clock time of each plan() call, up to `capacity` of them [ns]; a fact of the
+  /// machine, never part of a result.
+  void timePlans(std::function<std::int64_t()> wall_clock_ns, std::size_t capacity);
+  const std::vector<std::int64_t>& planTimes() const { return plan_times_ns_; }
+
+ private:
+  void plan(SimTime now, const SensorFrame& sensors, ControlOutput& out);
+  void track(SimTime now, const SensorFrame& sensors, ControlOutput& out);
+
+  SimTime release_;
+  SimDuration tracker_period_, plan_latency_;
+  std::unique_ptr<Estimator> estimator_;
+  std::unique_ptr<ControlLaw> law_;
+  std::unique_ptr<PdTracker> tracker_;
+  TaskId tracker_task_, estimator_task_, planner_task_;
+
+  PolicySample policy_;
+  bool plan_pending_ = false;
+  bool has_policy_ = false;
+  SimTime pending_since_{};
+  std::int64_t plans_ = 0, plans_refused_ = 0, ticks_saturated_ = 0, ticks_not_finite_ = 0;
+
+  std::function<std::int64_t()> wall_clock_ns_;
+  std::vector<std::int64_t> plan_times_ns_;
+};
+
+}  // namespace ballbot

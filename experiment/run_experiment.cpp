@@ -1,0 +1,134 @@
+#include "experiment/run_experiment.hpp"
+
+#include <chrono>
+#include <optional>
+
+#include "core/config_reader.hpp"
+#include "cosim/recorder.hpp"
+#include "cosim/serve.hpp"
+#include "cosim/step_master.hpp"
+#include "experiment/plant_link.hpp"
+#include "experiment/robot_controller.hpp"
+#include "experiment/run_record.hpp"
+#include "experiment/run_report.hpp"
+#include "metrics/balance_metrics.hpp"
+
+namespace ballbot {
+namespace {
+
+using WallTime = std::chrono::steady_clock;
+
+std::int64_t wallNs() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(WallTime::now().time_since_epoch()).count();
+}
+
+RecorderOptions readRecorderOptions(const Scenario& scenario, const std::string& log_path) {
+  RecorderOptions options;
+  options.log_path = log_path;
+  if (const ConfigNode* node = scenario.tree.find("recording")) {
+    ConfigReader in(*node, "recording");
+    options.read(in);
+    in.finish();
+  }
+  return options;
+}
+
+/// Saves, kills the plant, starts another and continues, between two events.
+void replacePlant(StepMaster& master, PlantLink& plant) {
+  const StateBlob saved = master.save().toBlob();
+  plant.replace();
+  master.replaceParticipant(plant.participant());
+  master.restore(Checkpoint::fromBlob(saved));
+}
+
+}  // namespace
+
+RunResult runExperiment(const Scenario& scenario, const RunFolder& folder, const RunOptions& options) {
+  // Everything that can be wrong with the scenario is said before anything is started.
+  EventCalendar calendar(scenario.rates.base_step);
+  RobotController controller(scenario, calendar);
+  std::vector<std::string> known_metrics = BalanceMetrics::names();
+  for (const auto& counter : controller.counters()) known_metrics.push_back(counter.first);
+  judge(scenario.requirements, {}, known_metrics);
+  const RecorderOptions recorder_options = readRecorderOptions(scenario, folder.logFile());
+
+  writeScenario(scenario, folder.path());
+  writeManifest(scenario, folder);
+
+  const int core = options.pin && !options.in_process ? preferredCore() : -1;
+  if (core >= 0) pinToCore(core);
+  PlantLink::Options link;
+  link.in_process = options.in_process;
+  link.address = {options.lcm_url, options.channel};
+  link.core = core;
+  link.patience = options.patience;
+  link.stop = options.stop;
+  PlantLink plant(scenario, folder, link);
+
+  const auto planned_plans = static_cast<std::size_t>(scenario.duration / scenario.rates.planner) + 1;
+  controller.timePlans(wallNs, planned_plans);
+  Recorder recorder(recorder_options);
+  BalanceMetrics metrics(scenario.release);
+
+  MasterOptions master_options;
+  master_options.end = kSimStart + scenario.duration;
+  master_options.stop = options.stop;
+  StepMaster master(plant.participant(), controller, calendar, &recorder, master_options);
+  master.setObserver([&](const Tick& tick) {
+    if (tick.truth) metrics.add(*tick.truth, tick.control.command);
+    if (options.progress) options.progress(tick.time);
+    return !metrics.fell();
+  });
+
+  const auto started = WallTime::now();
+  master.initialize();
+  bool replaced = toNs(options.replace_plant_at) < 0;
+  do {
+    if (!replaced && master.time() >= options.replace_plant_at) {
+      replacePlant(master, plant);
+      replaced = true;
+    }
+  } while (master.step());
+  master.terminate();
+  const double wall = std::chrono::duration<double>(WallTime::now() - started).count();
+  recorder.close();
+  plant.close();
+
+  RunResult result;
+  result.wall_seconds = wall;
+  result.end = master.time();
+  result.completed = master.ended() == StepMaster::End::kDuration;
+  result.fell = metrics.fell();
+  result.trajectory_digest = recorder.trajectoryDigest();
+  result.metrics = metrics.values();
+  for (const auto& counter : controller.counters()) result.metrics.insert(counter);
+  result.verdicts = judge(scenario.requirements, result.metrics, known_metrics);
+  result.passed = result.completed && !result.fell;
+  for (const VerdictRow& row : result.verdicts) result.passed = result.passed && row.passed;
+
+  writeSummary(scenario, result, folder);
+  writeTiming(result, plant.statistics(), controller.planTimes(), recorder.bytesWritten(), folder);
+  if (options.write_report) writeRunReport(scenario, result, folder);
+  return result;
+}
+
+void servePlant(const Scenario& scenario, const std::string& lcm_url, const std::string& channel,
+                const std::atomic<bool>* stop, bool keep_serving) {
+  const std::unique_ptr<Participant> plant = makePlant(scenario);
+  const LcmAddress address{lcm_url, channel};
+  {
+    LcmTransport master_end(address, LinkEnd::kMaster);
+    if (const auto who = whoServes(master_end)) {
+      throw InputError("'" + *who + "' already serves " + master_end.describe() +
+                       ". Give this one another --channel, or end that one first");
+    }
+  }
+  LcmTransport transport(address, LinkEnd::kParticipant);
+  ServeOptions options;
+  options.config_digest = configDigest64(scenario);
+  options.stop = stop;
+  options.keep_serving = keep_serving;
+  serve(*plant, transport, options);
+}
+
+}  // namespace ballbot

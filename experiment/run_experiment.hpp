@@ -1,0 +1,59 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/time.hpp"
+#include "experiment/run_folder.hpp"
+#include "experiment/scenario.hpp"
+#include "experiment/verdict.hpp"
+
+namespace ballbot {
+
+struct RunOptions {
+  /// Controller and plant in one process, joined by a function call; same bits, no LCM.
+  bool in_process = false;
+  /// Empty: a plant process is started and met on an address of its own. Otherwise whoever serves
+  /// at this LCM URL and channel stands in the plant's place.
+  std::string lcm_url, channel;
+  /// Controller and plant on one processor: in a lockstep they never work at once, and a switch
+  /// within a core is quicker than a wake-up of another.
+  bool pin = true;
+  /// At this time the plant is saved, its process killed, and a new one continues (a proof that
+  /// the saved state is complete). Negative: never.
+  SimTime replace_plant_at = simTimeFromNs(-1);
+  /// Silence after which the plant counts as lost.
+  std::chrono::milliseconds patience{10'000};
+  bool write_report = true;
+  const std::atomic<bool>* stop = nullptr;
+  std::function<void(SimTime now)> progress;
+};
+
+struct RunResult {
+  bool passed = false;
+  bool fell = false;
+  bool completed = false;  ///< false: it ended early, because the robot fell
+  SimTime end{};
+  std::string trajectory_digest;
+  std::map<std::string, double> metrics;
+  std::vector<VerdictRow> verdicts;
+  double wall_seconds = 0;
+
+  ExitCode exitCode() const { return passed ? ExitCode::kPassed : ExitCode::kRequirementMissed; }
+};
+
+/// Runs a scenario and leaves everything about it in `folder`.
+/// @throw Error of the kind that tells the caller's exit code; what was logged stays readable.
+RunResult runExperiment(const Scenario& scenario, const RunFolder& folder, const RunOptions& options);
+
+/// The plant of a scenario at the far end of the step protocol, until the master says bye.
+/// @throw InputError, LostParticipantError
+void servePlant(const Scenario& scenario, const std::string& lcm_url, const std::string& channel,
+                const std::atomic<bool>* stop, bool keep_serving);
+
+}  // namespace ballbot

@@ -1,0 +1,82 @@
+#include "experiment/run_record.hpp"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "experiment/build_info.hpp"
+#include "experiment/text_file.hpp"
+
+namespace ballbot {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The value below which the share `p` of the (sorted) samples lie [us].
+double percentileUs(const std::vector<std::int64_t>& sorted_ns, double p) {
+  const auto last = static_cast<double>(sorted_ns.size() - 1);
+  return 1e-3 * static_cast<double>(sorted_ns[static_cast<std::size_t>(p * last)]);
+}
+
+}  // namespace
+
+void writeManifest(const Scenario& scenario, const RunFolder& folder) {
+  Json m;
+  m["scenario"] = scenario.name;
+  m["seed"] = scenario.seed;
+  m["config_digest"] = scenario.configDigest();
+  for (const auto& [key, value] : buildInfo()) m["build"][key] = value;
+  writeTextFile(folder.manifestFile(), m.dump(2) + "\n");
+}
+
+Json summaryJson(const Scenario& scenario, const RunResult& result) {
+  Json s;
+  s["scenario"] = scenario.name;
+  s["passed"] = result.passed;
+  s["fell"] = result.fell;
+  s["completed"] = result.completed;
+  s["simulated_s"] = toSeconds(result.end);
+  s["trajectory_digest"] = result.trajectory_digest;
+  // The two numbers people ask for first stand at the top as well.
+  for (const char* name : {"final_ball_position_error_m", "largest_tilt_deg"}) {
+    const auto it = result.metrics.find(name);
+    if (it != result.metrics.end()) s[name] = it->second;
+  }
+  s["metrics"] = Json::object();
+  for (const auto& [name, value] : result.metrics) s["metrics"][name] = value;
+  s["requirements"] = Json::array();
+  for (const VerdictRow& row : result.verdicts) {
+    Json r;
+    r["metric"] = row.metric;
+    r["limit"] = row.limit;
+    if (row.measured) r["value"] = row.value;
+    r["passed"] = row.passed;
+    s["requirements"].push_back(r);
+  }
+  return s;
+}
+
+void writeSummary(const Scenario& scenario, const RunResult& result, const RunFolder& folder) {
+  writeTextFile(folder.summaryFile(), summaryJson(scenario, result).dump(2) + "\n");
+}
+
+void writeTiming(const RunResult& result,
+                 const RemoteParticipant::LinkStatistics& link,
+                 const std::vector<std::int64_t>& plan_times_ns, std::int64_t log_bytes,
+                 const RunFolder& folder) {
+  Json t;
+  t["wall_s"] = result.wall_seconds;
+  t["real_time_factor"] = result.wall_seconds > 0 ? toSeconds(result.end) / result.wall_seconds : 0.0;
+  t["requests"] = link.requests;
+  t["requests_repeated"] = link.repeated;
+  t["log_bytes"] = log_bytes;
+  if (!plan_times_ns.empty()) {
+    std::vector<std::int64_t> sorted = plan_times_ns;
+    std::sort(sorted.begin(), sorted.end());
+    t["plan_us"] = {{"p50", percentileUs(sorted, 0.5)}, {"p99", percentileUs(sorted, 0.99)},
+                    {"max", percentileUs(sorted, 1.0)}};
+  }
+  writeTextFile(folder.timingFile(), t.dump(2) + "\n");
+}
+
+}  // namespace ballbot

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "cosim/remote_participant.hpp"
+#include "experiment/run_experiment.hpp"
+
+namespace ballbot {
+
+/// What ran: versions, seed and digests. Written before the run, so that an interrupted one can
+/// still be told apart. @throw OutputError
+void writeManifest(const Scenario& scenario, const RunFolder& folder);
+
+/// Metrics and verdicts; the same object that `ballbot run --json` prints.
+nlohmann::ordered_json summaryJson(const Scenario& scenario, const RunResult& result);
+void writeSummary(const Scenario& scenario, const RunResult& result, const RunFolder& folder);
+
+/// Wall-clock facts: the only file of a run folder that differs between two equal runs.
+/// @param plan_times_ns  duration of each plan() call [ns]
+void writeTiming(const RunResult& result,
+                 const RemoteParticipant::LinkStatistics& link,
+                 const std::vector<std::int64_t>& plan_times_ns, std::int64_t log_bytes,
+                 const RunFolder& folder);
+
+}  // namespace ballbot

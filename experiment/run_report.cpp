@@ -1,0 +1,185 @@
+#include "experiment/run_report.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/config_reader.hpp"
+#include "cosim/log_reader.hpp"
+#include "experiment/build_info.hpp"
+#include "experiment/log_tables.hpp"
+#include "experiment/run_replay.hpp"
+#include "experiment/text_file.hpp"
+#include "metrics/balance_metrics.hpp"
+#include "model/robot_reader.hpp"
+#include "plant/environment.hpp"
+#include "report/write_report.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr double kDegPerRad = 57.295779513082320877;
+constexpr const char* kWheels[] = {"wheel1", "wheel2", "wheel3"};
+constexpr const char* kArms[] = {"arm1", "arm2", "arm3"};
+
+/// Adds lines from the columns of recorded tables to one pair of axes.
+class AxesBuilder {
+ public:
+  AxesBuilder(const std::vector<LogTable>& tables, std::string quantity, std::string unit, double scale = 1)
+      : tables_(tables), scale_(scale) {
+    axes_.quantity = std::move(quantity);
+    axes_.unit = std::move(unit);
+  }
+  AxesBuilder& line(const std::string& table, const std::string& column, const std::string& name,
+                    SeriesStyle style, int channel) {
+    if (const LogTable* t = findTable(tables_, table)) {
+      PlotSeries series{name, style, channel, t->column("time_s"), t->column(column)};
+      for (double& v : series.values) v *= scale_;
+      axes_.series.push_back(std::move(series));
+    }
+    return *this;
+  }
+  AxesBuilder& limit(const std::string& name, double value) {
+    axes_.limits.push_back({name, value});
+    axes_.limits.push_back({"", -value});
+    return *this;
+  }
+  const PlotAxes& axes() const { return axes_; }
+
+ private:
+  const std::vector<LogTable>& tables_;
+  double scale_;
+  PlotAxes axes_;
+};
+
+PlotGroup ballGroup(const std::vector<LogTable>& tables) {
+  PlotGroup group{"Ball", "Where the ball is and what the controller believes.", {}, {}};
+  AxesBuilder position(tables, "position", "m");
+  AxesBuilder velocity(tables, "velocity", "m/s");
+  int channel = 0;
+  for (const char* axis : {"x", "y"}) {
+    position.line("truth", std::string("p") + axis, std::string(axis) + " true", SeriesStyle::kMeasured, channel)
+        .line("estimate", std::string("p") + axis, std::string(axis) + " estimated", SeriesStyle::kEstimated, channel);
+    velocity.line("truth", std::string("v") + axis, std::string(axis) + " true", SeriesStyle::kMeasured, channel)
+        .line("estimate", std::string("v") + axis, std::string(axis) + " estimated", SeriesStyle::kEstimated, channel);
+    ++channel;
+  }
+  group.axes = {position.axes(), velocity.axes()};
+  if (const LogTable* truth = findTable(tables, "truth")) {
+    PathAxes path{"Way of the ball from above", "x", "y", "m", {}};
+    path.series.push_back({"ball", SeriesStyle::kMeasured, 0, truth->column("time_s"), truth->column("px"),
+                           truth->column("py")});
+    group.paths.push_back(std::move(path));
+  }
+  return group;
+}
+
+PlotGroup baseGroup(const std::vector<LogTable>& tables) {
+  PlotGroup group{"Base", "The base leans against a push and with an acceleration; at rest it leans 1.2 degrees forward.", {}, {}};
+  AxesBuilder angles(tables, "angle", "deg", kDegPerRad);
+  AxesBuilder rates(tables, "angular velocity", "rad/s");
+  const char* const names[] = {"pitch", "roll", "yaw"};
+  const char* const rate_names[] = {"omega_y", "omega_x", "omega_z"};
+  for (int i = 0; i < 3; ++i) {
+    angles.line("truth", names[i], std::string(names[i]) + " true", SeriesStyle::kMeasured, i)
+        .line("estimate", names[i], std::string(names[i]) + " estimated", SeriesStyle::kEstimated, i);
+    rates.line("truth", rate_names[i], std::string(1, rate_names[i][6]) + " true", SeriesStyle::kMeasured, i)
+        .line("estimate", rate_names[i], std::string(1, rate_names[i][6]) + " estimated", SeriesStyle::kEstimated, i);
+  }
+  group.axes = {angles.axes(), rates.axes()};
+  return group;
+}
+
+PlotGroup torqueGroup(const std::vector<LogTable>& tables, const RobotParameters& robot) {
+  PlotGroup group{"Torques", "Commanded, and what the springs apply.", {}, {}};
+  AxesBuilder wheels(tables, "wheel torque", "N m"), arms(tables, "arm torque", "N m");
+  for (int i = 0; i < 3; ++i) {
+    wheels.line("truth", std::string("joint_torque_") + kWheels[i], fmt::format("wheel {}", i + 1), SeriesStyle::kMeasured, i)
+        .line("command", std::string("torque_") + kWheels[i], fmt::format("wheel {} commanded", i + 1), SeriesStyle::kCommanded, i);
+    arms.line("truth", std::string("joint_torque_") + kArms[i], fmt::format("joint {}", i + 1), SeriesStyle::kMeasured, i)
+        .line("command", std::string("torque_") + kArms[i], fmt::format("joint {} commanded", i + 1), SeriesStyle::kCommanded, i);
+  }
+  wheels.limit("limit", robot.wheel_torque_limit);
+  group.axes = {wheels.axes(), arms.axes()};
+  return group;
+}
+
+PlotGroup armGroup(const std::vector<LogTable>& tables) {
+  PlotGroup group{"Arm and end-effector", "", {}, {}};
+  AxesBuilder joints(tables, "joint angle", "rad"), hand(tables, "end-effector position", "m");
+  const char* const axes[] = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i) {
+    joints.line("truth", kArms[i], fmt::format("joint {}", i + 1), SeriesStyle::kMeasured, i);
+    hand.line("truth", std::string("p_WE_") + axes[i], axes[i], SeriesStyle::kMeasured, i);
+  }
+  group.axes = {joints.axes(), hand.axes()};
+  return group;
+}
+
+std::vector<Phase> phasesOf(const Scenario& scenario, const std::vector<Push>& pushes) {
+  std::vector<Phase> phases;
+  if (scenario.release > kSimStart) {
+    phases.push_back({PhaseKind::kHold, 0, toSeconds(scenario.release), "held in the stand"});
+  }
+  for (const Push& push : pushes) {
+    phases.push_back({PhaseKind::kPush, toSeconds(push.start), toSeconds(push.start + push.duration),
+                      fmt::format("push {:.0f} N", push.force_W.norm())});
+  }
+  return phases;
+}
+
+std::string verdictText(const RunResult& result) {
+  if (result.fell) return fmt::format("fell at {:.2f} s", toSeconds(result.end));
+  std::size_t met = 0;
+  for (const VerdictRow& row : result.verdicts) met += row.passed ? 1 : 0;
+  return fmt::format("{} of {} requirements met", met, result.verdicts.size());
+}
+
+void addVerdicts(const RunResult& result, const std::vector<MetricLimit>& limits, ReportData& data) {
+  for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
+    const VerdictRow& row = result.verdicts[i];
+    const double value = row.measured ? row.value : std::nan("");
+    const auto add = [&](Requirement::Relation relation, double limit) {
+      data.requirements.push_back({row.metric, value, relation, limit, unitOfMetric(row.metric), row.passed});
+    };
+    if (limits[i].below) add(Requirement::Relation::kAtMost, *limits[i].below);
+    if (limits[i].above) add(Requirement::Relation::kAtLeast, *limits[i].above);
+  }
+  for (const auto& [name, value] : result.metrics) data.metrics.push_back({"", name, value, unitOfMetric(name)});
+}
+
+}  // namespace
+
+void writeRunReport(const Scenario& scenario, const RunResult& result, const RunFolder& folder) {
+  const RunLog log = readRunLog(folder.logFile());
+  const std::vector<LogTable> tables = logTables(log);
+  ConfigReader robot_in(scenario.section("robot"), "robot");
+  const RobotParameters robot = readRobot(robot_in);
+  const std::vector<Push> pushes = scheduledPushes(scenario.tree);
+
+  ReportData data;
+  data.title = scenario.name;
+  data.subtitle = scenario.summary;
+  data.passed = result.passed;
+  data.verdict = verdictText(result);
+  data.headline = {{"duration", fmt::format("{:g} s", toSeconds(result.end))},
+                   {"seed", std::to_string(scenario.seed)},
+                   {"digest", result.trajectory_digest.substr(0, 12)},
+                   {"largest tilt", fmt::format("{:.1f} deg", result.metrics.count("largest_tilt_deg")
+                                                                  ? result.metrics.at("largest_tilt_deg")
+                                                                  : std::nan(""))}};
+  addVerdicts(result, scenario.requirements, data);
+  data.groups = {ballGroup(tables), baseGroup(tables), torqueGroup(tables, robot), armGroup(tables)};
+  data.phases = phasesOf(scenario, pushes);
+  if (!log.truth.empty()) data.replay = makeReplay(log, robot, pushes);
+  data.manifest = {{"scenario", scenario.name}, {"seed", std::to_string(scenario.seed)},
+                   {"config digest", scenario.configDigest()}, {"trajectory digest", result.trajectory_digest}};
+  for (const auto& [key, value] : buildInfo()) data.manifest.push_back({key, value});
+  data.documents = {{"scenario.yaml", readTextFile(folder.scenarioFile())},
+                    {"summary.json", readTextFile(folder.summaryFile())}};
+  data.start_s = 0;
+  data.end_s = toSeconds(result.end);
+  writeReport(data, readTextFile(scenario.urdf_path), folder.reportFile());
+}
+
+}  // namespace ballbot

@@ -1,0 +1,112 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.hpp"
+
+namespace ballbot {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// One bad way to call `run`, and the words that must be said about it.
+struct BadInput {
+  const char* name;
+  std::vector<std::string> arguments;  ///< after `run balance`
+  const char* words;
+};
+
+class BadScenario : public ::testing::TestWithParam<BadInput> {};
+
+TEST_P(BadScenario, IsRefusedInWordsBeforeAnythingIsLeftBehind) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments = {"run", scenarioPath("balance"), "--quiet", "--out", folder / "run"};
+  for (const std::string& a : GetParam().arguments) arguments.push_back(a);
+  const Finished run = runBallbot(arguments, 20);
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_THAT(run.err, HasSubstr(GetParam().words));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << "one message, one line: " << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_FALSE(std::ifstream(folder / "run/scenario.yaml").good());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Run, BadScenario,
+    ::testing::Values(
+        BadInput{"UnknownKey", {"--set", "plant.actuatros=ideal"}, "unknown key 'actuatros'"},
+        BadInput{"UnknownSection", {"--set", "plnat.x=1"}, "unknown key 'plnat'"},
+        BadInput{"WrongType", {"--set", "duration_s=long"}, "duration_s is long, must be a number"},
+        BadInput{"OutOfRange", {"--set", "duration_s=-1"}, "duration_s is -1, must be between"},
+        BadInput{"WrongChoice", {"--set", "plant.actuators=magic"}, "must be one of: ideal, series_elastic"},
+        BadInput{"Unschedulable", {"--set", "rates.tracker_period_us=333"}, "Nearest: 300 us, 400 us"},
+        BadInput{"UnknownMetric", {"--set", "requirements.beauty.above=3"}, "unknown metric 'beauty'"},
+        BadInput{"NoLimit", {"--set", "requirements.largest_tilt_deg={}"}, "has no limit"},
+        BadInput{"NoEquals", {"--set", "duration_s"}, "write path=value"},
+        BadInput{"MissingUrdf", {"--set", "robot.urdf=nowhere.urdf"}, "nowhere.urdf"},
+        BadInput{"UnknownEstimator", {"--set", "estimator.kind=oracle"}, "kind is 'oracle'"},
+        BadInput{"UnknownLaw", {"--set", "controller.kind=magic"}, "kind is 'magic'"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(BadFiles, AMissingScenarioIsNamed) {
+  const Finished run = runBallbot({"run", "/nowhere/x.yaml"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("/nowhere/x.yaml: cannot be read"));
+}
+
+TEST(BadFiles, AnErrorNamesFileLineAndColumn) {
+  const TemporaryFolder folder;
+  std::string text = readFile(scenarioPath("balance"));
+  const std::string configs = std::string(BALLBOT_SOURCE_DIR) + "/configs/";
+  for (std::size_t at; (at = text.find("../")) != std::string::npos;) text.replace(at, 3, configs);
+  // Absolute includes: std::filesystem's operator/ lets an absolute path win.
+  text.replace(text.find("pitch_deg: 3"), 12, "pitch_deg: steep");
+  std::ofstream(folder / "bad.yaml") << text;
+  const Finished run = runBallbot({"run", folder / "bad.yaml", "--quiet", "--out", folder / "run"}, 20);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, ::testing::ContainsRegex("bad\\.yaml:[0-9]+:14: pitch_deg is steep, must be a number"));
+}
+
+TEST(BadFiles, AFilledFolderIsNotOverwritten) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "precious.txt") << "data";
+  const Finished run = runBallbot({"run", scenarioPath("balance"), "--out", folder / "."});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("Nothing was overwritten"));
+  EXPECT_EQ(readFile(folder / "precious.txt"), "data");
+}
+
+TEST(BadFiles, AFolderThatIsNoRunIsRefused) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(runBallbot({"check", folder / "."}).err, HasSubstr("not the folder of a run"));
+  EXPECT_THAT(runBallbot({"compare", folder / "x", folder / "."}).err, HasSubstr("no such folder"));
+  const Finished nothing = runBallbot({"export", folder / "."});
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_THAT(nothing.err, HasSubstr("--csv FOLDER"));
+}
+
+TEST(Help, EveryVerbHasExamplesAndExitCodes) {
+  for (const char* verb : {"run", "check", "compare", "export", "plant", "controller", "relay", "doctor"}) {
+    const Finished help = runBallbot({verb, "--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_THAT(help.out, HasSubstr(std::string("ballbot ") + verb)) << verb << " has no example";
+  }
+  EXPECT_EQ(runBallbot({"dance"}).exit_code, 2);
+  EXPECT_THAT(runBallbot({"--version"}).out, HasSubstr("ballbot 0."));
+}
+
+TEST(Doctor, SaysWhatItFoundAsJson) {
+  const Finished doctor = runBallbot({"doctor", "--json"});
+  const auto json = nlohmann::json::parse(doctor.out);
+  EXPECT_EQ(json["healthy"].get<bool>(), doctor.exit_code == 0);
+  EXPECT_EQ(json["checks"].size(), 6u);
+  for (const auto& check : json["checks"]) {
+    EXPECT_EQ(check["level"] == "ok", check["mend"] == "") << "a fault comes with its mend: " << check;
+  }
+}
+
+}  // namespace
+}  // namespace ballbot

@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.hpp"
+
+namespace ballbot {
+namespace {
+
+/// Every scenario that ships must pass its own requirements.
+class Scenarios : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Scenarios, PassesItsRequirements) {
+  const TemporaryFolder folder;
+  const Finished run =
+      runBallbot({"run", scenarioPath(GetParam()), "--quiet", "--json", "--out", folder / "run"}, 280);
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  const auto json = nlohmann::json::parse(run.out, nullptr, false);
+  ASSERT_FALSE(json.is_discarded()) << run.err;
+  EXPECT_TRUE(json["passed"].get<bool>());
+  EXPECT_FALSE(json["fell"].get<bool>());
+  EXPECT_EQ(json["trajectory_digest"].get<std::string>().size(), 32u);
+  EXPECT_TRUE(json["final_ball_position_error_m"].is_number());
+  EXPECT_TRUE(json["largest_tilt_deg"].is_number());
+  EXPECT_GE(json["requirements"].size(), 3u);
+  EXPECT_TRUE(std::filesystem::exists((folder / "run") + "/report.html"));
+}
+
+std::vector<std::string> shippedScenarios() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(BALLBOT_SOURCE_DIR) + "/configs/scenarios")) {
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, Scenarios, ::testing::ValuesIn(shippedScenarios()),
+                         [](const auto& info) { return info.param; });
+
+TEST(Requirements, AMissedOneGivesExitCodeOne) {
+  const TemporaryFolder folder;
+  const Finished run =
+      runBallbot({"run", scenarioPath("balance"), "--quiet", "--json", "--no-report", "--in-process", "--out",
+                  folder / "run", "--set", "duration_s=1", "--set", "requirements.largest_tilt_deg.below=0.1"});
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_FALSE(nlohmann::json::parse(run.out)["passed"].get<bool>());
+}
+
+TEST(Requirements, AFallEndsTheRunAndNeverPasses) {
+  const TemporaryFolder folder;
+  const Finished run =
+      runBallbot({"run", scenarioPath("balance"), "--quiet", "--json", "--no-report", "--in-process", "--out",
+                  folder / "run", "--set", "requirements={}", "--set", "initial.pitch_deg=40"});
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_TRUE(json["fell"].get<bool>());
+  EXPECT_LT(json["simulated_s"].get<double>(), 5);
+}
+
+}  // namespace
+}  // namespace ballbot

@@ -1,0 +1,33 @@
+#include "tools/result_table.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace ballbot {
+
+std::string resultTable(const Scenario& scenario, const RunResult& result, const RunFolder& folder) {
+  std::string out = fmt::format("{}: {}\n", scenario.name, result.passed ? "passed" : "MISSED");
+  if (result.fell) {
+    out += fmt::format("  the robot fell at {}; see docs/troubleshooting/robot-falls.md\n", toText(result.end));
+  }
+  if (!result.verdicts.empty()) {
+    out += fmt::format("  {:<32} {:>12} {:<6} {:<12}\n", "requirement", "value", "", "limit");
+  }
+  for (const VerdictRow& row : result.verdicts) {
+    out += fmt::format("  {:<32} {:>12} {:<6} {:<12} {}\n", row.metric,
+                       row.measured ? fmt::format("{:.4g}", row.value) : "none", unitOfMetric(row.metric),
+                       row.limit, row.passed ? "ok" : "MISSED");
+  }
+  out += fmt::format("  {:<32} {}\n", "trajectory digest", result.trajectory_digest);
+  out += fmt::format("  {:<32} {:.2f} s in {:.2f} s, {:.2f} times real time\n", "simulated",
+                     toSeconds(result.end), result.wall_seconds,
+                     result.wall_seconds > 0 ? toSeconds(result.end) / result.wall_seconds : 0.0);
+  out += fmt::format("  {:<32} {}\n", "run folder", folder.path());
+  if (std::filesystem::exists(folder.reportFile())) {
+    out += fmt::format("  {:<32} {}\n", "report", folder.reportFile());
+  }
+  return out;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "experiment/run_experiment.hpp"
+
+namespace ballbot {
+
+/// The short table that ends a run: verdict, requirements, digest, where the report is.
+std::string resultTable(const Scenario& scenario, const RunResult& result, const RunFolder& folder);
+
+}  // namespace ballbot

@@ -1,0 +1,123 @@
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cosim/lcm_transport.hpp"
+#include "experiment/run_experiment.hpp"
+#include "experiment/run_record.hpp"
+#include "tools/commands.hpp"
+#include "tools/interrupt.hpp"
+#include "tools/progress.hpp"
+#include "tools/result_table.hpp"
+
+namespace ballbot {
+namespace {
+
+struct RunArguments {
+  std::string scenario, out;
+  std::string lcm_url, channel = "BALLBOT";
+  std::vector<std::string> overrides;
+  std::optional<std::uint64_t> seed;
+  bool in_process = false, no_pin = false, no_report = false, json = false, quiet = false;
+  double replace_plant_at_s = -1;
+  double patience_s = 10;
+};
+
+ExitCode runScenario(const RunArguments& arguments) {
+  const Scenario scenario = loadScenario(arguments.scenario, arguments.overrides, arguments.seed);
+  const RunFolder folder = RunFolder::create(arguments.out, scenario.name);
+
+  Progress progress(scenario.name, arguments.quiet);
+  RunOptions options;
+  options.in_process = arguments.in_process;
+  options.lcm_url = arguments.lcm_url;
+  options.channel = arguments.channel;
+  options.pin = !arguments.no_pin;
+  options.write_report = !arguments.no_report;
+  if (arguments.replace_plant_at_s >= 0) {
+    options.replace_plant_at = kSimStart + durationFromSeconds(arguments.replace_plant_at_s);
+  }
+  options.patience = std::chrono::milliseconds(static_cast<int>(1000 * arguments.patience_s));
+  options.stop = interruptFlag();
+  const double duration_s = toSeconds(scenario.duration);
+  options.progress = [&](SimTime now) {
+    // Every tick asks; a redraw is cheap only if the text is made for those that draw.
+    if (toNs(now) % 10'000'000 == 0) {
+      progress.update(toSeconds(now) / duration_s, fmt::format("{:5.2f} of {:g} s", toSeconds(now), duration_s));
+    }
+  };
+  const RunResult result = runExperiment(scenario, folder, options);
+  progress.finish();
+
+  if (arguments.json) {
+    nlohmann::ordered_json json = summaryJson(scenario, result);
+    json["run_folder"] = folder.path();
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    fmt::print("{}", resultTable(scenario, result, folder));
+  }
+  return result.exitCode();
+}
+
+/// What `run` and `controller` have in common.
+void addSharedOptions(CLI::App* command, const std::shared_ptr<RunArguments>& a) {
+  command->add_option("scenario", a->scenario, "Scenario file")->required();
+  command->add_option("--out", a->out, "Run folder to create (default: the next free runs/NAME-NNN)");
+  command->add_option("--set", a->overrides, "path=value: change one value of the scenario; repeatable")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option("--seed", a->seed, "Seed of every noise source, instead of the scenario's");
+  command->add_option("--channel", a->channel, "LCM channel to meet at")->capture_default_str();
+  command->add_option("--patience-s", a->patience_s, "Silence after which the plant counts as lost [s]")
+      ->check(CLI::Range(0.1, 1e5))
+      ->capture_default_str();
+  command->add_flag("--no-pin", a->no_pin, "Do not keep this process on one processor");
+  command->add_flag("--no-report", a->no_report, "Do not write report.html");
+  command->add_flag("--json", a->json, "Print the summary as JSON");
+  command->add_flag("--quiet", a->quiet, "No progress on stderr");
+}
+
+}  // namespace
+
+void addRunCommand(CLI::App& program, ExitCode& result) {
+  CLI::App* command = program.add_subcommand("run", "Run one scenario and leave a run folder");
+  const auto a = std::make_shared<RunArguments>();
+  addSharedOptions(command, a);
+  command->add_flag("--in-process", a->in_process, "Controller and plant in one process; same bits, no LCM");
+  command->add_option("--lcm-url", a->lcm_url,
+                      "Do not start a plant: meet whoever serves at this LCM URL, e.g. ballbot plant");
+  command->add_option("--replace-plant-at", a->replace_plant_at_s,
+                      "At this time [s] save the plant, kill its process, continue in a new one");
+  command->footer(
+      "Examples:\n"
+      "  ballbot run configs/scenarios/balance.yaml\n"
+      "  ballbot run configs/scenarios/push.yaml --seed 7 --set plant.actuators=ideal --json\n"
+      "  ballbot run configs/scenarios/push.yaml --lcm-url 'udpm://239.255.76.67:7667?ttl=0'\n"
+      "Exit codes: 0 passed, 1 a requirement was missed, 2 bad input, 3 a participant was lost,\n"
+      "4 output could not be written, 130 interrupted.");
+  command->callback([&result, a] { result = runScenario(*a); });
+}
+
+void addControllerCommand(CLI::App& program, ExitCode& result) {
+  CLI::App* command = program.add_subcommand(
+      "controller", "Run a scenario's controller against a plant that is served over LCM");
+  const auto a = std::make_shared<RunArguments>();
+  a->lcm_url = sharedLcmAddress().url;
+  a->channel = sharedLcmAddress().channel;
+  addSharedOptions(command, a);
+  command->add_option("--lcm-url", a->lcm_url, "LCM URL at which the plant is served")->capture_default_str();
+  command->footer(
+      "Example, two terminals:\n"
+      "  ballbot plant configs/scenarios/balance.yaml\n"
+      "  ballbot controller configs/scenarios/balance.yaml\n"
+      "Exit codes as for run.");
+  command->callback([&result, a] { result = runScenario(*a); });
+}
+
+}  // namespace ballbot
