@@ -1,0 +1,77 @@
+#include "controller/riccati_equation.hpp"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "model/state.hpp"
+
+namespace ballbot {
+namespace {
+
+using Matrix2 = Eigen::Matrix2d;
+using StateMatrix = Eigen::Matrix<double, kStateDim, kStateDim>;
+
+/// The same solution from the stable invariant subspace of the Hamiltonian matrix.
+template <int N>
+Eigen::Matrix<double, N, N> fromHamiltonian(const Eigen::Matrix<double, N, N>& A,
+                                            const Eigen::Matrix<double, N, N>& G,
+                                            const Eigen::Matrix<double, N, N>& Q) {
+  Eigen::Matrix<double, 2 * N, 2 * N> H;
+  H << A, -G, -Q, -A.transpose();
+  const Eigen::EigenSolver<decltype(H)> eigen(H);
+  Eigen::Matrix<std::complex<double>, 2 * N, N> stable;
+  int found = 0;
+  for (int i = 0; i < 2 * N; ++i) {
+    if (eigen.eigenvalues()[i].real() < 0 && found < N) stable.col(found++) = eigen.eigenvectors().col(i);
+  }
+  EXPECT_EQ(found, N);
+  return (stable.template bottomRows<N>() * stable.template topRows<N>().inverse()).real();
+}
+
+TEST(RiccatiEquation, MatchesTheDoubleIntegratorInClosedForm) {
+  const double q1 = 4, q2 = 0.5;
+  const Matrix2 A = (Matrix2() << 0, 1, 0, 0).finished();
+  const Matrix2 G = (Matrix2() << 0, 0, 0, 1).finished();
+  const Matrix2 Q = Eigen::Vector2d(q1, q2).asDiagonal();
+  const double x12 = std::sqrt(q1), x22 = std::sqrt(q2 + 2 * x12);
+  const Matrix2 expected = (Matrix2() << x12 * x22, x12, x12, x22).finished();
+  EXPECT_LT((solveContinuousRiccati<2>(A, G, Q) - expected).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+TEST(RiccatiEquation, AgreesWithTheHamiltoniansStableSubspaceOnAStiffUnstableSystem) {
+  std::srand(7);
+  StateMatrix A = StateMatrix::Random();
+  A.diagonal().head<4>().setConstant(6);     // unstable
+  A.diagonal().tail<4>().setConstant(-300);  // fast
+  Eigen::Matrix<double, kStateDim, 5> B = decltype(B)::Random();
+  const StateMatrix G = B * B.transpose();
+  const StateMatrix Q = Eigen::Matrix<double, kStateDim, 1>::LinSpaced(0.1, 40).asDiagonal();
+  const StateMatrix X = solveContinuousRiccati<kStateDim>(A, G, Q);
+  const StateMatrix reference = fromHamiltonian<kStateDim>(A, G, Q);
+  EXPECT_LT((X - reference).cwiseAbs().maxCoeff(), 1e-8 * reference.cwiseAbs().maxCoeff());
+  EXPECT_LT(continuousRiccatiResidual<kStateDim>(A, G, Q, X), 1e-12);
+}
+
+TEST(RiccatiEquation, RefusesAnUnstableModeThatNoInputReaches) {
+  const Matrix2 A = (Matrix2() << 1, 0, 0, -1).finished();
+  const Matrix2 G = (Matrix2() << 0, 0, 0, 1).finished();
+  try {
+    solveContinuousRiccati<2>(A, G, Matrix2::Identity());
+    FAIL() << "no error";
+  } catch (const NumericalError& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("the inputs must reach every unstable mode"));
+  }
+}
+
+TEST(RiccatiEquation, RefusesAnUnstableModeThatTheWeightsDoNotSee) {
+  const Matrix2 A = (Matrix2() << 1, 0, 0, -1).finished();
+  const Matrix2 Q = (Matrix2() << 0, 0, 0, 1).finished();
+  EXPECT_THROW(solveContinuousRiccati<2>(A, Matrix2::Identity(), Q), NumericalError);
+}
+
+}  // namespace
+}  // namespace ballbot
