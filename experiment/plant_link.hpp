@@ -19,6 +19,10 @@ namespace ballbot {
 /// @throw InputError with file, line and column.
 std::unique_ptr<Participant> makePlant(const Scenario& scenario);
 
+/// Reads everything of a scenario that concerns the plant, without building it.
+/// @throw InputError with file, line and column.
+void checkPlant(const Scenario& scenario);
+
 /// What the two processes of a run compare before they begin.
 std::uint64_t configDigest64(const Scenario& scenario);
 

@@ -43,15 +43,17 @@ void replacePlant(StepMaster& master, PlantLink& plant) {
 
 }  // namespace
 
-RunResult runExperiment(const Scenario& scenario, const RunFolder& folder, const RunOptions& options) {
+RunResult runExperiment(const Scenario& scenario, const std::string& out, const RunOptions& options) {
   // Everything that can be wrong with the scenario is said before anything is started.
   EventCalendar calendar(scenario.rates.base_step);
   RobotController controller(scenario, calendar);
   std::vector<std::string> known_metrics = BalanceMetrics::names();
   for (const auto& counter : controller.counters()) known_metrics.push_back(counter.first);
   judge(scenario.requirements, {}, known_metrics);
-  const RecorderOptions recorder_options = readRecorderOptions(scenario, folder.logFile());
+  readRecorderOptions(scenario, "");
+  checkPlant(scenario);
 
+  const RunFolder folder = RunFolder::create(out, scenario.name);
   writeScenario(scenario, folder.path());
   writeManifest(scenario, folder);
 
@@ -67,7 +69,7 @@ RunResult runExperiment(const Scenario& scenario, const RunFolder& folder, const
 
   const auto planned_plans = static_cast<std::size_t>(scenario.duration / scenario.rates.planner) + 1;
   controller.timePlans(wallNs, planned_plans);
-  Recorder recorder(recorder_options);
+  Recorder recorder(readRecorderOptions(scenario, folder.logFile()));
   BalanceMetrics metrics(scenario.release);
 
   MasterOptions master_options;
@@ -94,7 +96,7 @@ RunResult runExperiment(const Scenario& scenario, const RunFolder& folder, const
   recorder.close();
   plant.close();
 
-  RunResult result;
+  RunResult result(folder);
   result.wall_seconds = wall;
   result.end = master.time();
   result.completed = master.ended() == StepMaster::End::kDuration;

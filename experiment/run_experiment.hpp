@@ -35,6 +35,9 @@ struct RunOptions {
 };
 
 struct RunResult {
+  explicit RunResult(RunFolder where) : folder(std::move(where)) {}
+
+  RunFolder folder;
   bool passed = false;
   bool fell = false;
   bool completed = false;  ///< false: it ended early, because the robot fell
@@ -47,9 +50,10 @@ struct RunResult {
   ExitCode exitCode() const { return passed ? ExitCode::kPassed : ExitCode::kRequirementMissed; }
 };
 
-/// Runs a scenario and leaves everything about it in `folder`.
+/// Runs a scenario and leaves everything about it in a run folder, which is made at `out` (see
+/// RunFolder::create) once the whole scenario has been found good.
 /// @throw Error of the kind that tells the caller's exit code; what was logged stays readable.
-RunResult runExperiment(const Scenario& scenario, const RunFolder& folder, const RunOptions& options);
+RunResult runExperiment(const Scenario& scenario, const std::string& out, const RunOptions& options);
 
 /// The plant of a scenario at the far end of the step protocol, until the master says bye.
 /// @throw InputError, LostParticipantError

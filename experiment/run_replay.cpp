@@ -14,11 +14,12 @@ ReplayPose pose(const Vector3& p_W, const Eigen::Quaterniond& q) {
 
 }  // namespace
 
-Replay makeReplay(const RunLog& log, const RobotParameters& robot) {
-  Replay replay;
+ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot,
+                        const std::vector<Push>& pushes) {
+  ReportReplay replay;
   ReplayBody base{"base", {}}, ball{"ball", {}};
   ReplayFrame hand{"end-effector", SeriesStyle::kMeasured, {}};
-  ReplayForce push{"push", PhaseKind::kPush, {}, {}}, contact{"contact", PhaseKind::kContact, {}, {}};
+  ReplayForce push{"push", ReportPhase::Kind::kPush, {}, {}}, contact{"contact", ReportPhase::Kind::kContact, {}, {}};
   // Joint names as the URDF has them, in the order of the actuators.
   for (const char* name : {"wheel_1_joint", "wheel_2_joint", "wheel_3_joint", "arm_1_joint", "arm_2_joint", "arm_3_joint"}) {
     replay.joints.push_back({name, {}});

@@ -11,6 +11,6 @@ namespace ballbot {
 
 /// The 3-D replay of a run from its recorded truth: base, ball, joints, end-effector frame, pushes.
 /// Nothing if no truth was recorded. `pushes` are the scheduled ones, for where they act.
-Replay makeReplay(const RunLog& log, const RobotParameters& robot, const std::vector<Push>& pushes);
+ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot, const std::vector<Push>& pushes);
 
 }  // namespace ballbot

@@ -116,13 +116,13 @@ PlotGroup armGroup(const std::vector<LogTable>& tables) {
   return group;
 }
 
-std::vector<Phase> phasesOf(const Scenario& scenario, const std::vector<Push>& pushes) {
-  std::vector<Phase> phases;
+std::vector<ReportPhase> phasesOf(const Scenario& scenario, const std::vector<Push>& pushes) {
+  std::vector<ReportPhase> phases;
   if (scenario.release > kSimStart) {
-    phases.push_back({PhaseKind::kHold, 0, toSeconds(scenario.release), "held in the stand"});
+    phases.push_back({ReportPhase::Kind::kHold, 0, toSeconds(scenario.release), "held in the stand"});
   }
   for (const Push& push : pushes) {
-    phases.push_back({PhaseKind::kPush, toSeconds(push.start), toSeconds(push.start + push.duration),
+    phases.push_back({ReportPhase::Kind::kPush, toSeconds(push.start), toSeconds(push.start + push.duration),
                       fmt::format("push {:.0f} N", push.force_W.norm())});
   }
   return phases;
@@ -135,17 +135,14 @@ std::string verdictText(const RunResult& result) {
   return fmt::format("{} of {} requirements met", met, result.verdicts.size());
 }
 
-void addVerdicts(const RunResult& result, const std::vector<MetricLimit>& limits, ReportData& data) {
-  for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
-    const VerdictRow& row = result.verdicts[i];
-    const double value = row.measured ? row.value : std::nan("");
-    const auto add = [&](Requirement::Relation relation, double limit) {
-      data.requirements.push_back({row.metric, value, relation, limit, unitOfMetric(row.metric), row.passed});
-    };
-    if (limits[i].below) add(Requirement::Relation::kAtMost, *limits[i].below);
-    if (limits[i].above) add(Requirement::Relation::kAtLeast, *limits[i].above);
+void addVerdicts(const RunResult& result, ReportData& data) {
+  for (const VerdictRow& row : result.verdicts) {
+    data.requirements.push_back({row.metric, row.measured ? row.value : std::nan(""), row.limit,
+                                 unitOfMetric(row.metric), row.passed});
   }
-  for (const auto& [name, value] : result.metrics) data.metrics.push_back({"", name, value, unitOfMetric(name)});
+  for (const auto& [name, value] : result.metrics) {
+    data.metrics.push_back({"", name, value, unitOfMetric(name)});
+  }
 }
 
 }  // namespace
@@ -168,7 +165,7 @@ void writeRunReport(const Scenario& scenario, const RunResult& result, const Run
                    {"largest tilt", fmt::format("{:.1f} deg", result.metrics.count("largest_tilt_deg")
                                                                   ? result.metrics.at("largest_tilt_deg")
                                                                   : std::nan(""))}};
-  addVerdicts(result, scenario.requirements, data);
+  addVerdicts(result, data);
   data.groups = {ballGroup(tables), baseGroup(tables), torqueGroup(tables, robot), armGroup(tables)};
   data.phases = phasesOf(scenario, pushes);
   if (!log.truth.empty()) data.replay = makeReplay(log, robot, pushes);

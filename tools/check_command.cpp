@@ -60,7 +60,6 @@ ExitCode checkRun(const CheckArguments& arguments) {
   const std::string other_build = buildDifference(original);
   const Scenario scenario = loadScenario(original.scenarioFile(), {}, arguments.seed);
   const ScratchFolder scratch(original.path());
-  const RunFolder again = RunFolder::create(scratch.path(), scenario.name);
 
   Progress progress("check " + scenario.name, arguments.quiet);
   RunOptions options;
@@ -70,7 +69,7 @@ ExitCode checkRun(const CheckArguments& arguments) {
   options.progress = [&](SimTime now) {
     if (toNs(now) % 10'000'000 == 0) progress.update(toSeconds(now) / toSeconds(scenario.duration), "");
   };
-  runExperiment(scenario, again, options);
+  const RunFolder again = runExperiment(scenario, scratch.path(), options).folder;
   progress.finish();
 
   auto difference = compareLogs(original.logFile(), again.logFile());

@@ -6,7 +6,7 @@
 
 namespace ballbot {
 
-std::string resultTable(const Scenario& scenario, const RunResult& result, const RunFolder& folder) {
+std::string resultTable(const Scenario& scenario, const RunResult& result) {
   std::string out = fmt::format("{}: {}\n", scenario.name, result.passed ? "passed" : "MISSED");
   if (result.fell) {
     out += fmt::format("  the robot fell at {}; see docs/troubleshooting/robot-falls.md\n", toText(result.end));
@@ -23,9 +23,9 @@ std::string resultTable(const Scenario& scenario, const RunResult& result, const
   out += fmt::format("  {:<32} {:.2f} s in {:.2f} s, {:.2f} times real time\n", "simulated",
                      toSeconds(result.end), result.wall_seconds,
                      result.wall_seconds > 0 ? toSeconds(result.end) / result.wall_seconds : 0.0);
-  out += fmt::format("  {:<32} {}\n", "run folder", folder.path());
-  if (std::filesystem::exists(folder.reportFile())) {
-    out += fmt::format("  {:<32} {}\n", "report", folder.reportFile());
+  out += fmt::format("  {:<32} {}\n", "run folder", result.folder.path());
+  if (std::filesystem::exists(result.folder.reportFile())) {
+    out += fmt::format("  {:<32} {}\n", "report", result.folder.reportFile());
   }
   return out;
 }

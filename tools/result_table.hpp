@@ -7,6 +7,6 @@
 namespace ballbot {
 
 /// The short table that ends a run: verdict, requirements, digest, where the report is.
-std::string resultTable(const Scenario& scenario, const RunResult& result, const RunFolder& folder);
+std::string resultTable(const Scenario& scenario, const RunResult& result);
 
 }  // namespace ballbot

@@ -30,7 +30,6 @@ struct RunArguments {
 
 ExitCode runScenario(const RunArguments& arguments) {
   const Scenario scenario = loadScenario(arguments.scenario, arguments.overrides, arguments.seed);
-  const RunFolder folder = RunFolder::create(arguments.out, scenario.name);
 
   Progress progress(scenario.name, arguments.quiet);
   RunOptions options;
@@ -51,15 +50,15 @@ ExitCode runScenario(const RunArguments& arguments) {
       progress.update(toSeconds(now) / duration_s, fmt::format("{:5.2f} of {:g} s", toSeconds(now), duration_s));
     }
   };
-  const RunResult result = runExperiment(scenario, folder, options);
+  const RunResult result = runExperiment(scenario, arguments.out, options);
   progress.finish();
 
   if (arguments.json) {
     nlohmann::ordered_json json = summaryJson(scenario, result);
-    json["run_folder"] = folder.path();
+    json["run_folder"] = result.folder.path();
     fmt::print("{}\n", json.dump(2));
   } else {
-    fmt::print("{}", resultTable(scenario, result, folder));
+    fmt::print("{}", resultTable(scenario, result));
   }
   return result.exitCode();
 }

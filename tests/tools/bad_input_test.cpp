@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"MissingUrdf", {"--set", "robot.urdf=nowhere.urdf"}, "nowhere.urdf"},
         BadInput{"UnknownEstimator", {"--set", "estimator.kind=oracle"}, "kind is 'oracle'"},
         BadInput{"UnknownLaw", {"--set", "controller.kind=magic"}, "kind is 'magic'"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 TEST(BadFiles, AMissingScenarioIsNamed) {
   const Finished run = runBallbot({"run", "/nowhere/x.yaml"});

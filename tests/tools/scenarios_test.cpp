@@ -38,7 +38,7 @@ std::vector<std::string> shippedScenarios() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, Scenarios, ::testing::ValuesIn(shippedScenarios()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 TEST(Requirements, AMissedOneGivesExitCodeOne) {
   const TemporaryFolder folder;
