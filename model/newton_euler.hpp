@@ -3,210 +3,204 @@
 #include <array>
 #include <cmath>
 
-#include "model/robot_parameters.hpp"
+#include "model/dynamics_constants.hpp"
+#include "model/sine_cosine.hpp"
+#include "model/spatial.hpp"
 
 namespace ballbot {
 
-/// RobotParameters in the form the equations use, computed once.
-struct DynamicsConstants {
-  explicit DynamicsConstants(const RobotParameters& robot);
-
-  struct Link {
-    Vector3 p_PJ_P, axis, com;
-    double mass;
-    Matrix3 I_cm;
-    double composite_mass;  ///< of this link and those beyond it
-  };
-  double base_mass;
-  Vector3 base_com;
-  Matrix3 base_I_cm;
-  std::array<Link, kArmJointCount> arm;
-  Vector3 p_A3E;
-  Matrix3 R_A3E;
-
-  double gravity, ball_radius;
-  double rolling_mass;   ///< ball mass plus I_ball / r^2: its inertia against rolling [kg]
-  double upper_mass;     ///< all that stands on the ball [kg]
-  double ratio;          ///< rho = r / r_w
-  Matrix3 axles;         ///< D, rows d_i
-  Matrix3 spin_inertia;  ///< G = I_w sum d_i d_i^T [kg m^2]
-};
-
-/// Cross and dot product without the conjugation that Eigen's apply to complex scalars, which
-/// would break complex-step differentiation.
-template <typename A, typename B>
-Eigen::Matrix<typename A::Scalar, 3, 1> cross(const A& a, const B& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+/// Of eight angles.
+template <typename Scalar>
+void sinesAndCosines(const Scalar* angle, Scalar* sine, Scalar* cosine) {
+  for (int i = 0; i < 8; ++i) {
+    sine[i] = std::sin(angle[i]);
+    cosine[i] = std::cos(angle[i]);
+  }
 }
-template <typename A, typename B>
-typename A::Scalar dot(const A& a, const B& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+inline void sinesAndCosines(const double* angle, double* sine, double* cosine) {
+  sineCosine8(angle, sine, cosine);
 }
 
-/// Newton-Euler pass of the reduced model for one configuration. Everything is expressed in axes of
-/// B, positions from K. Scalar is double, or a type that carries derivatives.
+/// Newton-Euler pass of the reduced model at one state. Everything is expressed in axes of B with
+/// the origin at K; velocities are relative to an inertial frame that moves along with K just now,
+/// so that of the base's motion only the rotation remains. Scalar is double, or a type that carries
+/// derivatives.
 ///
-/// Wheels enter by their spin momentum G s, s = (1 + rho) w - rho kappa: G (d_i . w + phi_dot_i)
-/// summed over the axles; their mass and transverse inertia belong to the base.
+/// The wheels' mass and transverse inertia belong to the base. Their spin enters by the momentum
+/// G s with s = (1 + rho) w - rho kappa, for which d_i . s = d_i . w + phi_dot_i is the spin of
+/// wheel i in W.
 template <typename Scalar>
 class NewtonEuler {
  public:
   using Vec3 = Eigen::Matrix<Scalar, 3, 1>;
   using Mat3 = Eigen::Matrix<Scalar, 3, 3>;
+  using Vec6 = Eigen::Matrix<Scalar, kJointCount, 1>;
   using Vec8 = Eigen::Matrix<Scalar, kVelocityDim, 1>;
   using Mat8 = Eigen::Matrix<Scalar, kVelocityDim, kVelocityDim>;
-  using Vec6 = Eigen::Matrix<Scalar, kJointCount, 1>;
+  template <typename T>
+  using PerJoint = std::array<T, kArmJointCount>;
 
-  NewtonEuler(const DynamicsConstants& constants, const Vec8& q) : c_(constants) {
-    using std::cos;
-    using std::sin;
-    const Scalar sz = sin(q[kYaw]), cz = cos(q[kYaw]), sy = sin(q[kPitch]), cy = cos(q[kPitch]),
-                 sx = sin(q[kRoll]), cx = cos(q[kRoll]);
-    R_WB << cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx,  //
-        sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx,      //
-        -sy, cy * sx, cy * cx;
-    Mat3 R = Mat3::Identity();
-    Vec3 origin = Vec3::Zero();
-    for (int i = 0; i < kArmJointCount; ++i) {
-      const DynamicsConstants::Link& link = c_.arm[i];
-      origin += R * link.p_PJ_P.template cast<Scalar>();
-      joint_origin[i] = origin;
-      axis[i] = R * link.axis.template cast<Scalar>();
-      R = R * rotationAbout(link.axis, q[kArm1 + i]);
-      R_BA[i] = R;
-      com[i] = origin + R * link.com.template cast<Scalar>();
-      I_cm[i] = R * link.I_cm.template cast<Scalar>() * R.transpose();
-    }
-    p_KE = origin + R * c_.p_A3E.template cast<Scalar>();
-    // R^T J_K: the ball's angular velocity in B per velocity of its centre.
-    rolling.col(0) = R_WB.row(1).transpose() / Scalar(c_.ball_radius);
-    rolling.col(1) = -R_WB.row(0).transpose() / Scalar(c_.ball_radius);
+  NewtonEuler(const DynamicsConstants& constants, const Vec8& q, const Vec8& nu)
+      : c_(constants), rho_(constants.ratio), G_(constants.spin_inertia.cast<Scalar>()) {
+    placeBase(q, nu);
+    goOutward(nu);
+    goInward();
   }
 
-  /// h(q, nu): what has to be applied for dnu/dt = 0.
-  Vec8 nonlinearEffects(const Vec8& nu) const {
-    const Vec3 w = nu.template segment<3>(kOmegaX);
-    const Vec3 g = Scalar(c_.gravity) * R_WB.row(2).transpose();  // gravity as acceleration of K
-    const Vec3 kappa = rolling * nu.template head<2>();
-
-    // Outward: velocities and accelerations at dnu/dt = 0, then each body's force and moment about
-    // its centre of mass.
-    std::array<Vec3, kArmJointCount> force, moment;
-    Vec3 w_link = w, dw_link = Vec3::Zero(), a_origin = g, p_origin = Vec3::Zero();
-    for (int i = 0; i < kArmJointCount; ++i) {
-      const Vec3 offset = joint_origin[i] - p_origin;
-      a_origin += cross(dw_link, offset) + cross(w_link, cross(w_link, offset));
-      p_origin = joint_origin[i];
-      const Vec3 relative = axis[i] * nu[kArmRate1 + i];
-      dw_link += cross(w_link, relative);
-      w_link += relative;
-      const Vec3 arm = com[i] - joint_origin[i];
-      force[i] = Scalar(c_.arm[i].mass) *
-                 (a_origin + cross(dw_link, arm) + cross(w_link, cross(w_link, arm)));
-      moment[i] = I_cm[i] * dw_link + cross(w_link, Vec3(I_cm[i] * w_link));
-    }
-
-    // Inward: sums about K, which give the joint torques on the way.
+  /// h(q, nu): the generalised force that dnu/dt = 0 takes.
+  Vec8 nonlinearEffects() const {
     Vec8 h;
-    Vec3 f = Vec3::Zero(), n = Vec3::Zero();
-    for (int i = kArmJointCount - 1; i >= 0; --i) {
-      f += force[i];
-      n += moment[i] + cross(com[i], force[i]);
-      h[kArmRate1 + i] = dot(axis[i], n - cross(joint_origin[i], f));
-    }
-    const Vec3 base_com = c_.base_com.template cast<Scalar>();
-    const Mat3 base_I = c_.base_I_cm.template cast<Scalar>();
-    const Vec3 base_force = Scalar(c_.base_mass) * (g + cross(w, cross(w, base_com)));
-    f += base_force;
-    n += cross(base_com, base_force) + cross(w, Vec3(base_I * w));
-
-    const Mat3 G = c_.spin_inertia.template cast<Scalar>();
-    const Scalar rho(c_.ratio);
-    const Vec3 spin_torque = rho * (G * cross(w, kappa));
-    const Vec3 momentum = G * ((Scalar(1) + rho) * w - rho * kappa);
-    n += (Scalar(1) + rho) * spin_torque + cross(w, momentum);
-
+    const Vec3 spin_torque = rho_ * (G_ * cross(omega, kappa));
     h.template head<2>() =
-        (R_WB * f).template head<2>() - rho * (rolling.transpose() * spin_torque);
-    h.template segment<3>(kOmegaX) = n;
+        (R_WB * bias[0].force).template head<2>() - rho_ * (rolling.transpose() * spin_torque);
+    h.template segment<3>(kOmegaX) =
+        bias[0].moment + (Scalar(1) + rho_) * spin_torque + cross(omega, spin_momentum);
+    for (int i = 0; i < kArmJointCount; ++i) h[kArmRate1 + i] = dot(joint[i], bias[i + 1]);
     return h;
   }
 
   /// M(q), by composite rigid bodies.
   Mat8 massMatrix() const {
-    Mat8 M = Mat8::Zero();
-    Vec3 first = Vec3::Zero();   // first moment of the bodies so far, about K
-    Mat3 second = Mat3::Zero();  // their inertia about K
-    for (int i = kArmJointCount - 1; i >= 0; --i) {
-      const DynamicsConstants::Link& link = c_.arm[i];
-      add(link.mass, com[i], I_cm[i], first, second);
-      // Unit acceleration of joint i: the field axis x p + b on all bodies beyond it.
-      const Vec3 b = cross(joint_origin[i], axis[i]);
-      const Vec3 force = cross(axis[i], first) + Scalar(link.composite_mass) * b;
-      const Vec3 moment = second * axis[i] + cross(first, b);
-      const int column = kArmRate1 + i;
-      M.template block<2, 1>(kBallVx, column) = (R_WB * force).template head<2>();
-      M.template block<3, 1>(kOmegaX, column) = moment;
-      for (int j = 0; j <= i; ++j) {
-        M(kArmRate1 + j, column) =
-            dot(axis[j], moment) + dot(cross(joint_origin[j], axis[j]), force);
-      }
-    }
-    add(c_.base_mass, c_.base_com.template cast<Scalar>(), c_.base_I_cm.template cast<Scalar>(),
-        first, second);
-
-    const Mat3 G = c_.spin_inertia.template cast<Scalar>();
-    const Scalar rho(c_.ratio), one(1);
-    const Eigen::Matrix<Scalar, 3, 2> G_rolling = G * rolling;
+    Mat8 M;
+    const Scalar one(1);
+    const Eigen::Matrix<Scalar, 3, 2> G_rolling = G_ * rolling;
+    M.template topLeftCorner<2, 2>() = rho_ * rho_ * (rolling.transpose() * G_rolling);
+    const Scalar translating(c_.rolling_mass + composite[0].mass);
+    M(0, 0) += translating;
+    M(1, 1) += translating;
     for (int k = 0; k < 3; ++k) {
-      const Vec3 force = cross(Vec3(Vec3::Unit(k)), first);
+      const Vec3 force = cross(Vec3(Vec3::Unit(k)), composite[0].first);
       M.template block<2, 1>(kBallVx, kOmegaX + k) =
-          (R_WB * force).template head<2>() - rho * (one + rho) * G_rolling.row(k).transpose();
+          (R_WB * force).template head<2>() - rho_ * (one + rho_) * G_rolling.row(k).transpose();
     }
-    M.template block<3, 3>(kOmegaX, kOmegaX) = second + (one + rho) * (one + rho) * G;
-    M.template topLeftCorner<2, 2>() =
-        Scalar(c_.rolling_mass + c_.upper_mass) * Eigen::Matrix<Scalar, 2, 2>::Identity() +
-        rho * rho * rolling.transpose() * G_rolling;
-    M.template triangularView<Eigen::StrictlyLower>() = M.transpose();
+    const Mat3& second = composite[0].second;
+    M.template block<3, 3>(kOmegaX, kOmegaX) = (one + rho_) * (one + rho_) * G_ - second;
+    for (int k = 0; k < 3; ++k) M(kOmegaX + k, kOmegaX + k) += second.trace();
+    for (int i = 0; i < kArmJointCount; ++i) {
+      const int column = kArmRate1 + i;
+      M.template block<2, 1>(kBallVx, column) = (R_WB * joint_wrench[i].force).template head<2>();
+      M.template block<3, 1>(kOmegaX, column) = joint_wrench[i].moment;
+      for (int j = 0; j <= i; ++j) M(kArmRate1 + j, column) = dot(joint[j], joint_wrench[i]);
+    }
+    for (int i = 0; i < kVelocityDim; ++i) {
+      for (int j = 0; j < i; ++j) M(i, j) = M(j, i);
+    }
     return M;
   }
 
   /// S(q)^T tau + J_E(q)^T lambda_W.
   Vec8 appliedForce(const Vec6& tau, const Vec3& lambda_W) const {
-    const Vec3 ball_torque =
-        -Scalar(c_.ratio) * (c_.axles.transpose().template cast<Scalar>() * tau.template head<3>());
+    const Vec3 ball_torque = ballTorque(tau);
     const Vec3 lambda = R_WB.transpose() * lambda_W;
     Vec8 force;
     force.template head<2>() = rolling.transpose() * ball_torque + lambda_W.template head<2>();
     force.template segment<3>(kOmegaX) = cross(p_KE, lambda) - ball_torque;
     for (int i = 0; i < kArmJointCount; ++i) {
-      force[kArmRate1 + i] =
-          tau[kWheelCount + i] + dot(cross(axis[i], p_KE - joint_origin[i]), lambda);
+      force[kArmRate1 + i] = tau[kWheelCount + i] + dot(tipVelocity(i), lambda);
     }
     return force;
   }
 
-  /// First moment of all that stands on the ball, from K [kg m].
-  Vec3 firstMoment() const {
-    Vec3 sum = Scalar(c_.base_mass) * c_.base_com.template cast<Scalar>();
-    for (int i = 0; i < kArmJointCount; ++i) sum += Scalar(c_.arm[i].mass) * com[i];
-    return sum;
+  /// Torque of the wheels on the ball, in B.
+  Vec3 ballTorque(const Vec6& tau) const {
+    return -rho_ * (c_.axles.transpose().template cast<Scalar>() * tau.template head<3>());
   }
 
+  /// Velocity of E in B per rate of arm joint i.
+  Vec3 tipVelocity(int i) const { return joint[i].linear + cross(joint[i].angular, p_KE); }
+
+  // Index 0 stands for the base, i for arm link i; joint i - 1 leads to link i.
+  Scalar sin_yaw, cos_yaw, sin_pitch, cos_pitch, sin_roll, cos_roll;
+  PerJoint<Scalar> sin_arm, cos_arm;
   Mat3 R_WB;
-  std::array<Mat3, kArmJointCount> R_BA;          ///< takes link coordinates to B
-  std::array<Vec3, kArmJointCount> axis;          ///< joint axes
-  std::array<Vec3, kArmJointCount> joint_origin;  ///< from K
-  std::array<Vec3, kArmJointCount> com;           ///< of the links, from K
-  std::array<Mat3, kArmJointCount> I_cm;          ///< of the links, about their centres of mass
+  Mat3 R_BA3;  ///< last link's axes
   Vec3 p_KE;
-  Eigen::Matrix<Scalar, 3, 2> rolling;  ///< R^T J_K
+  Eigen::Matrix<Scalar, 3, 2> rolling;    ///< R^T J_K: kappa = rolling (vx, vy)
+  PerJoint<Motion<Scalar>> joint;         ///< motion per unit of joint rate
+  PerJoint<Motion<Scalar>> joint_rate;    ///< its rate of change, from the parent's motion
+  PerJoint<Wrench<Scalar>> joint_wrench;  ///< composite momentum per unit of joint rate
+
+  Vec3 omega, kappa, spin_momentum;  ///< of base, ball, and of the wheels: G s
+  std::array<Motion<Scalar>, 4> velocity;
+  std::array<MassMoments<Scalar>, 4> composite;   ///< of the body and all beyond it
+  std::array<VelocityMoments<Scalar>, 4> moving;  ///< of those
+  std::array<Wrench<Scalar>, 4> bias;             ///< wrench on those, at dnu/dt = 0
+  PerJoint<Scalar> rate;                          ///< arm joint rates
 
  private:
-  static Mat3 rotationAbout(const Vector3& unit, const Scalar& angle) {
-    using std::cos;
-    using std::sin;
-    const Scalar s = sin(angle), c = cos(angle);
+  void placeBase(const Vec8& q, const Vec8& nu) {
+    const Scalar angle[8] = {q[kYaw],  q[kPitch], q[kRoll],  q[kArm1],
+                             q[kArm2], q[kArm3],  Scalar(0), Scalar(0)};
+    Scalar sine[8], cosine[8];
+    sinesAndCosines(angle, sine, cosine);
+    sin_yaw = sine[0], sin_pitch = sine[1], sin_roll = sine[2];
+    cos_yaw = cosine[0], cos_pitch = cosine[1], cos_roll = cosine[2];
+    for (int i = 0; i < kArmJointCount; ++i) {
+      sin_arm[i] = sine[3 + i];
+      cos_arm[i] = cosine[3 + i];
+    }
+    R_WB << cos_yaw * cos_pitch, cos_yaw * sin_pitch * sin_roll - sin_yaw * cos_roll,
+        cos_yaw * sin_pitch * cos_roll + sin_yaw * sin_roll,  //
+        sin_yaw * cos_pitch, sin_yaw * sin_pitch * sin_roll + cos_yaw * cos_roll,
+        sin_yaw * sin_pitch * cos_roll - cos_yaw * sin_roll,  //
+        -sin_pitch, cos_pitch * sin_roll, cos_pitch * cos_roll;
+    const Scalar curvature(1 / c_.ball_radius);
+    rolling.col(0) = curvature * R_WB.row(1).transpose();
+    rolling.col(1) = -curvature * R_WB.row(0).transpose();
+
+    omega = nu.template segment<3>(kOmegaX);
+    kappa = rolling * nu.template head<2>();
+    spin_momentum = G_ * (omega + rho_ * (omega - kappa));
+    velocity[0] = {omega, Vec3::Zero()};
+    composite[0] = {c_.base_mass, c_.base_first_moment.template cast<Scalar>(),
+                    c_.base_second_moment.template cast<Scalar>()};
+  }
+
+  /// Places and moves each link from its parent.
+  void goOutward(const Vec8& nu) {
+    R_BA3.setIdentity();
+    Vec3 origin = Vec3::Zero();
+    for (int i = 0; i < kArmJointCount; ++i) {
+      const DynamicsConstants::Link& link = c_.arm[i];
+      origin += R_BA3 * link.p_PJ_P.template cast<Scalar>();
+      const Vec3 axis = R_BA3 * link.axis.template cast<Scalar>();
+      joint[i] = {axis, cross(origin, axis)};
+      R_BA3 = (R_BA3 * rotationAbout(link.axis, sin_arm[i], cos_arm[i])).eval();
+
+      const Vec3 com = origin + R_BA3 * link.com.template cast<Scalar>();
+      const Vec3 first = Scalar(link.mass) * com;
+      composite[i + 1] = {
+          link.mass, first,
+          R_BA3 * link.second_moment_cm.template cast<Scalar>() * R_BA3.transpose() +
+              first * com.transpose()};
+      rate[i] = nu[kArmRate1 + i];
+      joint_rate[i] = cross(velocity[i], joint[i]);
+      velocity[i + 1] = velocity[i] + joint[i] * rate[i];
+    }
+    p_KE = origin + R_BA3 * c_.p_A3E.template cast<Scalar>();
+  }
+
+  /// Sums masses and forces from the tip inwards.
+  void goInward() {
+    // Acceleration of the frame at dnu/dt = 0; gravity is an upward acceleration of K.
+    std::array<Motion<Scalar>, 4> acceleration;
+    acceleration[0] = {Vec3::Zero(), Scalar(c_.gravity) * R_WB.row(2).transpose()};
+    for (int i = 0; i < kArmJointCount; ++i) {
+      acceleration[i + 1] = acceleration[i] + joint_rate[i] * rate[i];
+    }
+    for (int i = kArmJointCount; i >= 0; --i) {
+      moving[i] = VelocityMoments<Scalar>(composite[i], velocity[i]);
+      bias[i] = composite[i] * acceleration[i] + moving[i].coriolis(velocity[i].angular);
+      if (i == kArmJointCount) continue;
+      composite[i] += composite[i + 1];
+      moving[i] += moving[i + 1];
+      bias[i] = bias[i] + bias[i + 1];
+    }
+    for (int i = 0; i < kArmJointCount; ++i) joint_wrench[i] = composite[i + 1] * joint[i];
+  }
+
+  /// Rotation about a unit vector.
+  static Mat3 rotationAbout(const Vector3& unit, const Scalar& s, const Scalar& c) {
     Mat3 R = (unit * unit.transpose()).template cast<Scalar>() * (Scalar(1) - c);
     for (int k = 0; k < 3; ++k) {
       const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -217,12 +211,9 @@ class NewtonEuler {
     return R;
   }
 
-  static void add(double mass, const Vec3& com, const Mat3& I_cm, Vec3& first, Mat3& second) {
-    first += Scalar(mass) * com;
-    second += I_cm + Scalar(mass) * (dot(com, com) * Mat3::Identity() - com * com.transpose());
-  }
-
   const DynamicsConstants& c_;
+  const Scalar rho_;
+  const Mat3 G_;
 };
 
 }  // namespace ballbot

@@ -2,39 +2,16 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "model/frames.hpp"
+#include "model/mass_matrix_inverse.hpp"
 #include "model/newton_euler.hpp"
 #include "model/omniwheel_kinematics.hpp"
 
 namespace ballbot {
-
-DynamicsConstants::DynamicsConstants(const RobotParameters& robot) {
-  const BodyInertia whole_base = robot.baseWithWheels();
-  base_mass = whole_base.mass;
-  base_com = whole_base.p_LLcm_L;
-  base_I_cm = whole_base.I_LLcm_L;
-  double beyond = 0;
-  for (int i = kArmJointCount - 1; i >= 0; --i) {
-    const ArmLink& link = robot.arm[i];
-    const BodyInertia body = i == kArmJointCount - 1 ? robot.lastLinkWithPayload() : link.inertia;
-    beyond += body.mass;
-    arm[i] = {link.p_PJ_P, link.axis, body.p_LLcm_L, body.mass, body.I_LLcm_L, beyond};
-  }
-  p_A3E = robot.p_A3E;
-  R_A3E = robot.R_A3E;
-  gravity = robot.gravity;
-  ball_radius = robot.ball.radius;
-  rolling_mass = robot.ball.mass + robot.ball.inertia / (ball_radius * ball_radius);
-  upper_mass = base_mass + beyond;
-  ratio = robot.ball.radius / robot.wheels.radius;
-  for (int i = 0; i < kWheelCount; ++i) axles.row(i) = robot.wheelAxle(i).transpose();
-  spin_inertia = robot.wheels.spin_inertia * axles.transpose() * axles;
-}
 
 using Pass = NewtonEuler<double>;
 
@@ -42,12 +19,12 @@ ReducedDynamics::ReducedDynamics(const RobotParameters& robot)
     : robot_(robot), constants_(std::make_shared<const DynamicsConstants>(robot)) {}
 
 MassMatrix ReducedDynamics::massMatrix(const PositionVector& q) const {
-  return Pass(*constants_, q).massMatrix();
+  return Pass(*constants_, q, VelocityVector::Zero()).massMatrix();
 }
 
 VelocityVector ReducedDynamics::nonlinearEffects(const PositionVector& q,
                                                  const VelocityVector& nu) const {
-  return Pass(*constants_, q).nonlinearEffects(nu);
+  return Pass(*constants_, q, nu).nonlinearEffects();
 }
 
 SelectionMatrix ReducedDynamics::selectionMatrix(const PositionVector& q) const {
@@ -61,9 +38,9 @@ SelectionMatrix ReducedDynamics::selectionMatrix(const PositionVector& q) const 
 VelocityVector ReducedDynamics::acceleration(const PositionVector& q, const VelocityVector& nu,
                                              const JointVector& tau,
                                              const Vector3& lambda_W) const {
-  const Pass pass(*constants_, q);
-  return pass.massMatrix().llt().solve(pass.appliedForce(tau, lambda_W) -
-                                       pass.nonlinearEffects(nu));
+  const Pass pass(*constants_, q, nu);
+  return inverseOfPositiveDefinite(pass.massMatrix()) *
+         (pass.appliedForce(tau, lambda_W) - pass.nonlinearEffects());
 }
 
 StateVector ReducedDynamics::derivative(const StateVector& x, const JointVector& tau,
@@ -77,10 +54,10 @@ StateVector ReducedDynamics::derivative(const StateVector& x, const JointVector&
 
 ReducedDynamics::EndEffector ReducedDynamics::endEffector(const StateVector& x) const {
   const PositionVector q = x.head<kPositionDim>();
-  const Pass pass(*constants_, q);
+  const Pass pass(*constants_, q, x.tail<kVelocityDim>());
   EndEffector out;
   out.p_WE = Vector3(x[kBallX], x[kBallY], constants_->ball_radius) + pass.R_WB * pass.p_KE;
-  out.R_WE = pass.R_WB * pass.R_BA.back() * constants_->R_A3E;
+  out.R_WE = pass.R_WB * pass.R_BA3 * constants_->R_A3E;
   const Eigen::Matrix<double, 6, 1> twist = endEffectorJacobian(q) * x.tail<kVelocityDim>();
   out.v_WE_W = twist.head<3>();
   out.w_WE_W = twist.tail<3>();
@@ -88,24 +65,23 @@ ReducedDynamics::EndEffector ReducedDynamics::endEffector(const StateVector& x) 
 }
 
 EndEffectorJacobian ReducedDynamics::endEffectorJacobian(const PositionVector& q) const {
-  const Pass pass(*constants_, q);
+  const Pass pass(*constants_, q, VelocityVector::Zero());
   EndEffectorJacobian J = EndEffectorJacobian::Zero();
   J.topLeftCorner<2, 2>().setIdentity();
   J.block<3, 3>(0, kOmegaX) = -pass.R_WB * skew(pass.p_KE);
   J.block<3, 3>(3, kOmegaX) = pass.R_WB;
   for (int i = 0; i < kArmJointCount; ++i) {
-    J.block<3, 1>(0, kArmRate1 + i) =
-        pass.R_WB * pass.axis[i].cross(pass.p_KE - pass.joint_origin[i]);
-    J.block<3, 1>(3, kArmRate1 + i) = pass.R_WB * pass.axis[i];
+    J.block<3, 1>(0, kArmRate1 + i) = pass.R_WB * pass.tipVelocity(i);
+    J.block<3, 1>(3, kArmRate1 + i) = pass.R_WB * pass.joint[i].angular;
   }
   return J;
 }
 
 double ReducedDynamics::energy(const StateVector& x) const {
-  const Pass pass(*constants_, x.head<kPositionDim>());
   const VelocityVector nu = x.tail<kVelocityDim>();
+  const Pass pass(*constants_, x.head<kPositionDim>(), nu);
   const double height_moment =
-      (pass.R_WB * pass.firstMoment()).z() + robot_.totalMass() * constants_->ball_radius;
+      (pass.R_WB * pass.composite[0].first).z() + constants_->total_mass * constants_->ball_radius;
   return 0.5 * nu.dot(pass.massMatrix() * nu) + constants_->gravity * height_moment;
 }
 
@@ -116,7 +92,8 @@ Equilibrium findEquilibrium(const ReducedDynamics& dynamics, const Vector3& arm)
   // The rows of h at rest that belong to w_WB_B are first moment x gravity, in B: zero exactly when
   // the centre of mass is above K. With yaw = 0 that gives pitch and roll in closed form.
   const DynamicsConstants constants(dynamics.robot());
-  const Vector3 up = Pass(constants, found.x.head<kPositionDim>()).firstMoment().normalized();
+  const Pass pass(constants, found.x.head<kPositionDim>(), VelocityVector::Zero());
+  const Vector3 up = pass.composite[0].first.normalized();
   const double limit = 30 * 3.14159265358979323846 / 180;
   if (!(up.z() >= std::cos(limit))) {
     throw NumericalError(fmt::format(
