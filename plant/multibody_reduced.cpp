@@ -84,10 +84,10 @@ class ReducedMultibody final : public Multibody {
     const double* u = y + nq_;
     rows_ = rolling_.rows(tree_.base().R_WB);
     JointMotion& m = joints_;
-    m.angle << Eigen::Map<const Vector3>(y + wheelAngles()),
-        Eigen::Map<const Vector3>(y + tree_.armQOffset());
-    m.velocity << rows_ * Eigen::Map<const Eigen::VectorXd>(u, rows_.cols()),
-        Eigen::Map<const Vector3>(u + tree_.armUOffset());
+    m.angle.head<kWheelCount>() = Eigen::Map<const Vector3>(y + wheelAngles());
+    m.angle.tail<kArmJointCount>() = Eigen::Map<const Vector3>(y + tree_.armQOffset());
+    m.velocity.head<kWheelCount>() = rolling_.rates(tree_.base().R_WB, u);
+    m.velocity.tail<kArmJointCount>() = Eigen::Map<const Vector3>(u + tree_.armUOffset());
     m.rotor_angle = options_.rotors ? Eigen::Map<const JointVector>(y + rotorAngles()) : m.angle;
     m.rotor_velocity =
         options_.rotors ? Eigen::Map<const JointVector>(y + rotorRates()) : m.velocity;

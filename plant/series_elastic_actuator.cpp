@@ -29,20 +29,23 @@ void SeriesElasticActuator::demand(double motor_torque, double since_last) {
 }
 
 double SeriesElasticActuator::motorTorque(double since_tick) const {
+  if (!spring_) return demand_;
   return demand_ + (start_ - demand_) * std::exp(-kTwoPi * p_.current_loop_bandwidth * since_tick);
 }
 
 SeriesElasticActuator::Torques SeriesElasticActuator::torques(double since_tick,
                                                               const ActuatorMotion& m) const {
+  const double motor_velocity = spring_ ? m.rotor_velocity : m.joint_velocity;
   double motor = motorTorque(since_tick);
   if (speed_limit_) {
-    motor = std::clamp(motor, -torqueAtSpeed(p_, -m.rotor_velocity),
-                       torqueAtSpeed(p_, m.rotor_velocity));
+    motor = std::clamp(motor, -torqueAtSpeed(p_, -motor_velocity),
+                       torqueAtSpeed(p_, motor_velocity));
   }
+  if (friction_) motor -= actuatorFriction(p_, motor_velocity);
+  if (!spring_) return {motor, 0};
   const double spring = p_.spring_stiffness * (m.rotor_angle - m.joint_angle) +
                         p_.spring_damping * (m.rotor_velocity - m.joint_velocity);
-  const double friction = friction_ ? actuatorFriction(p_, m.rotor_velocity) : 0;
-  return {spring, motor - spring - friction};
+  return {spring, motor - spring};
 }
 
 }  // namespace ballbot

@@ -21,10 +21,16 @@ double torqueAtSpeed(const ActuatorParameters& p, double speed_in_torque_directi
 /// Motor, gear, and spring of one joint between two ticks of its drive. All values are seen from
 /// the joint side of the gear. The current loop is a first-order lag; its input is constant between
 /// ticks, so it is solved in closed form and costs the integrator no state.
+///
+/// Without spring the actuator is ideal: the torque asked for, less friction and within the speed
+/// limit if there are such, is on the joint at once.
 class SeriesElasticActuator {
  public:
-  SeriesElasticActuator(const ActuatorParameters& p, bool friction, bool speed_limit)
-      : p_(p), friction_(friction), speed_limit_(speed_limit) {}
+  SeriesElasticActuator(const ActuatorParameters& p, bool friction, bool speed_limit, bool spring)
+      : p_(p), friction_(friction), speed_limit_(speed_limit), spring_(spring) {}
+
+  /// No torque.
+  void reset() { demand_ = start_ = 0; }
 
   /// At a drive tick, `since_last` [s] after the one before: the motor torque wanted from now on.
   void demand(double motor_torque, double since_last);
@@ -33,20 +39,20 @@ class SeriesElasticActuator {
   double motorTorque(double since_tick) const;
 
   struct Torques {
-    double spring;  ///< on the joint [N m]
-    double rotor;   ///< on the rotor, all that acts on it [N m]
+    double joint;  ///< on the joint [N m]
+    double rotor;  ///< on the rotor, all that acts on it; zero without spring [N m]
   };
   Torques torques(double since_tick, const ActuatorMotion& motion) const;
 
-  template <typename Visitor>
-  void visitState(Visitor& visit) {
-    visit(demand_);
-    visit(start_);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.demand_);
+    visit(self.start_);
   }
 
  private:
   ActuatorParameters p_;
-  bool friction_, speed_limit_;
+  bool friction_, speed_limit_, spring_;
   double demand_ = 0, start_ = 0;  ///< what the lag goes to and where it started from [N m]
 };
 

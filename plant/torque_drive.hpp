@@ -40,12 +40,14 @@ class TorqueDrive {
   /// Joint torque wanted, before the torque loop [N m].
   static double wantedTorque(const DriveCommand& command, const DriveReading& reading);
 
+  void reset() { slow_velocity_ = 0; }
+
   /// Motor torque to ask of the current loop until the next tick [N m].
   double tick(const DriveCommand& command, const DriveReading& reading);
 
-  template <typename Visitor>
-  void visitState(Visitor& visit) {
-    visit(slow_velocity_);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.slow_velocity_);
   }
 
  private:
