@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "model/signals.hpp"
+#include "plant/sensors.hpp"
+#include "plant/torque_drive.hpp"
+
+namespace ballbot {
+
+struct PlantConfig;
+
+/// The six drives as one: their encoders, their torque loops, and the way of a command to them,
+/// which takes a whole number of ticks. Sensing and acting of one tick are apart because what is
+/// sensed at a time can still shape the command that is acted on then.
+class DriveBank {
+ public:
+  explicit DriveBank(const PlantConfig& config);
+
+  /// Before the first tick: encoders at their angles, rates zero, no command on its way.
+  void reset(const JointMotion& motion);
+
+  /// First half of a tick: reads the encoders.
+  void sense(const JointMotion& motion) { encoders_.tick(motion); }
+  /// Second half: takes `command` in, and gives the motor torques that the command of
+  /// transport_delay_ticks ago asks for [N m].
+  JointVector act(const ActuatorCommand& command);
+
+  const JointEncoders& encoders() const { return encoders_; }
+
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    JointEncoders::visitState(self.encoders_, visit);
+    for (auto& drive : self.drives_) TorqueDrive::visitState(drive, visit);
+    visit(self.ticks_);
+    for (auto& command : self.on_the_way_) {
+      visit(command.torque);
+      visit(command.position);
+      visit(command.velocity);
+      visit(command.stiffness);
+      visit(command.damping);
+    }
+  }
+
+ private:
+  JointEncoders encoders_;
+  std::vector<TorqueDrive> drives_;
+  std::int64_t ticks_ = 0;
+  std::vector<ActuatorCommand> on_the_way_;  ///< ring, one more than the delay
+};
+
+}  // namespace ballbot

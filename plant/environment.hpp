@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/time.hpp"
+#include "model/robot_parameters.hpp"
+#include "plant/multibody.hpp"
+
+namespace ballbot {
+
+class ConfigNode;
+class ConfigReader;
+
+/// A force on a point of a body, constant in W from `start` for `duration`.
+struct Push {
+  BodyIndex body = kBaseBody;
+  Vector3 p_BP_B = Vector3::Zero();   ///< point from the body's origin, in its axes [m]
+  Vector3 force_W = Vector3::Zero();  ///< [N]
+  SimTime start{};
+  SimDuration duration{};
+
+  SimTime end() const { return start + duration; }
+  bool activeAt(SimTime t) const { return start <= t && t < end(); }
+};
+
+/// Reads `pushes:` of the `environment:` section. `body` is ball, base, or a link of the arm by its
+/// URDF name.
+/// @throw InputError for an unknown body or bad values.
+std::vector<Push> readPushes(ConfigReader& environment, const RobotParameters& robot);
+
+/// The pushes of a scenario, for whoever draws them. `scenario` is the whole tree.
+std::vector<Push> scheduledPushes(const ConfigNode& scenario);
+
+/// What the world outside does to the robot. Forces act through MultibodyLoads::forces; a wall or a
+/// door would add its own from the end-effector's motion at the same place.
+class Environment {
+ public:
+  explicit Environment(std::vector<Push> pushes) : pushes_(std::move(pushes)) {}
+
+  /// First time after `now` at which a force sets in or ends; SimTime::max() if there is none.
+  SimTime nextChange(SimTime now) const;
+
+  /// Forces that act from `now` until the next change; appended.
+  void addForces(SimTime now, std::vector<PointForce>& forces) const;
+  /// Their sum [N].
+  Vector3 totalForce(SimTime now) const;
+
+ private:
+  std::vector<Push> pushes_;
+};
+
+}  // namespace ballbot

@@ -1,0 +1,13 @@
+#include "plant/multibody.hpp"
+
+#include "plant/multibody_structures.hpp"
+
+namespace ballbot {
+
+std::unique_ptr<Multibody> makeMultibody(const RobotParameters& robot,
+                                         const MultibodyOptions& options) {
+  return options.structure == MultibodyStructure::kFull ? makeFullMultibody(robot, options)
+                                                        : makeReducedMultibody(robot, options);
+}
+
+}  // namespace ballbot

@@ -1,0 +1,216 @@
+#include "plant/multibody_structures.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "plant/robot_tree.hpp"
+
+namespace ballbot {
+namespace {
+
+/// A rotor's mass and transverse inertia are part of the body that carries it and are taken out
+/// there again, so these two figures only have to be those of some rigid body.
+BodyInertia rotorInertia(double axial, const Vector3& axis) {
+  BodyInertia rotor;
+  rotor.mass = 0.05;
+  rotor.I_LLcm_L = axial * (0.6 * Matrix3::Identity() + 0.4 * axis * axis.transpose());
+  return rotor;
+}
+
+/// Mass properties of a body's carried rotors removed: locked, they leave the robot as it was.
+BodyInertia withoutRotors(BodyInertia body, BodyIndex index, const RobotParameters& robot,
+                          const MultibodyOptions& options) {
+  const auto mounts = actuatorMounts(robot);
+  for (int i = 0; options.rotors && i < kJointCount; ++i) {
+    if (mounts[i].parent != index) continue;
+    body = without(body, rotorInertia(options.rotor_inertia[i], mounts[i].axis), mounts[i].p_PA_P);
+  }
+  return body;
+}
+
+std::array<BodyInertia, kArmJointCount> linksOf(const RobotParameters& robot,
+                                                const MultibodyOptions& options) {
+  const BodyInertia last = robot.lastLinkWithPayload();
+  return {withoutRotors(robot.arm[0].inertia, kLink1Body, robot, options),
+          withoutRotors(robot.arm[1].inertia, kLink2Body, robot, options), last};
+}
+
+/// Structure R. y = (q, u) of Simbody.
+class FullMultibody final : public Multibody {
+ public:
+  FullMultibody(const RobotParameters& robot, const MultibodyOptions& options)
+      : robot_(robot),
+        options_(options),
+        tree_(robot, withoutRotors(robot.base, kBaseBody, robot, options), linksOf(robot, options),
+              options.ball_spin),
+        rolling_(robot, options.ball_spin) {
+    addWheels();
+    if (options.rotors) addRotors();
+    tree_.finishTopology();
+    nq_ = tree_.nq();
+    nu_ = tree_.nu();
+    constraint_force_.resize(nu_);
+    constraint_force_ = 0;
+    for (SimTK::Vector& column : response_) column.resize(nu_);
+    wheel_q_ = tree_.armQOffset() + kArmJointCount;
+    wheel_u_ = tree_.armUOffset() + kArmJointCount;
+  }
+
+  int stateDim() const override { return nq_ + nu_; }
+
+  void place(const RobotPose& pose, double* y) const override {
+    tree_.place(pose, y, y + nq_);
+    if (!options_.rotors) return;
+    for (int j = 0; j < kArmJointCount; ++j) {
+      y[rotorQ(kWheelCount + j)] = options_.gear_ratio[kWheelCount + j] * pose.arm[j];
+    }
+  }
+
+  void setVelocity(const VelocityVector& nu, double ball_spin, double* y) const override {
+    double* u = y + nq_;
+    tree_.setVelocity(y, nu, ball_spin, u);
+    project(y);
+    if (!options_.rotors) return;
+    for (int i = 0; i < kJointCount; ++i) u[rotorU(i)] = options_.gear_ratio[i] * u[jointU(i)];
+  }
+
+  void realize(const double* y) override { tree_.realize(y, y + nq_); }
+
+  JointMotion joints() const override {
+    const SimTK::Vector& q = tree_.state.getQ();
+    const SimTK::Vector& u = tree_.state.getU();
+    JointMotion m;
+    for (int i = 0; i < kJointCount; ++i) {
+      m.angle[i] = q[jointQ(i)];
+      m.velocity[i] = u[jointU(i)];
+      m.rotor_angle[i] = options_.rotors ? q[rotorQ(i)] / options_.gear_ratio[i] : m.angle[i];
+      m.rotor_velocity[i] = options_.rotors ? u[rotorU(i)] / options_.gear_ratio[i] : m.velocity[i];
+    }
+    return m;
+  }
+
+  BaseMotion base() const override { return tree_.base(); }
+  BodyMotion body(BodyIndex index) const override { return tree_.body(index); }
+
+  void derivative(const MultibodyLoads& loads, double* ydot) override {
+    tree_.collectForces(loads);
+    SimTK::Vector& f = tree_.mobilityForces();
+    for (int i = 0; i < kWheelCount; ++i) f[wheel_u_ + i] = loads.joint_torque[i];
+    for (int i = 0; options_.rotors && i < kJointCount; ++i) {
+      f[rotorU(i)] = loads.rotor_torque[i] / options_.gear_ratio[i];
+    }
+    tree_.system.realize(tree_.state, SimTK::Stage::Dynamics);
+    tree_.matter.calcAccelerationIgnoringConstraints(tree_.state, f, tree_.bodyForces(), udot_,
+                                                     body_acceleration_);
+    addRollingConstraint();
+    const SimTK::Vector& qdot = tree_.state.getQDot();
+    std::copy_n(&qdot[0], nq_, ydot);
+    std::copy_n(&udot_[0], nu_, ydot + nq_);
+  }
+
+  void derivativeHeld(const MultibodyLoads& loads, double* ydot) override {
+    std::fill_n(ydot, stateDim(), 0.0);
+    for (int i = 0; options_.rotors && i < kJointCount; ++i) {
+      ydot[rotorQ(i)] = tree_.state.getU()[rotorU(i)];
+      ydot[nq_ + rotorU(i)] =
+          loads.rotor_torque[i] / (options_.gear_ratio[i] * options_.rotor_inertia[i]);
+    }
+  }
+
+  BaseAcceleration baseAcceleration(const double* ydot) const override {
+    const double* udot = ydot + nq_;
+    return {{udot[0], udot[1], 0}, Eigen::Map<const Vector3>(udot + tree_.omegaOffset())};
+  }
+
+  void project(double* y) const override {
+    tree_.normalizeQuaternion(y);
+    double* u = y + nq_;
+    Eigen::Map<Vector3>(u + wheel_u_) = rolling_.rates(tree_.rotationFromQ(y), u);
+  }
+
+  Vector3 wheelSlip() const override {
+    const double* u = &tree_.state.getU()[0];
+    const Vector3 rates = Eigen::Map<const Vector3>(u + wheel_u_);
+    return robot_.wheels.radius * (rates - rolling_.rates(tree_.base().R_WB, u));
+  }
+
+  double energy() const override { return tree_.kineticEnergy() + tree_.potentialEnergy(); }
+
+ private:
+  int jointQ(int i) const { return i < kWheelCount ? wheel_q_ + i : tree_.armQOffset() + i - 3; }
+  int jointU(int i) const { return i < kWheelCount ? wheel_u_ + i : tree_.armUOffset() + i - 3; }
+  int rotorQ(int i) const { return wheel_q_ + kWheelCount + i; }
+  int rotorU(int i) const { return wheel_u_ + kWheelCount + i; }
+
+  void addWheels() {
+    SimTK::MobilizedBody base = tree_.mobilizedBody(kBaseBody);
+    for (int i = 0; i < kWheelCount; ++i) {
+      const Vector3 d = robot_.wheelAxle(i);
+      BodyInertia wheel;
+      wheel.mass = robot_.wheels.mass;
+      wheel.I_LLcm_L = robot_.wheels.transverse_inertia * (Matrix3::Identity() - d * d.transpose()) +
+                       robot_.wheels.spin_inertia * d * d.transpose();
+      SimTK::MobilizedBody::Pin(base, pinFrame(d, robot_.wheelCentre(i)), toBody(wheel, "a wheel"),
+                                pinFrame(d, Vector3::Zero()));
+    }
+  }
+
+  /// A pin whose coordinate is the rotor's own angle, gear ratio times the angle behind the gear.
+  void addRotors() {
+    const auto mounts = actuatorMounts(robot_);
+    for (int i = 0; i < kJointCount; ++i) {
+      SimTK::MobilizedBody parent = tree_.mobilizedBody(mounts[i].parent);
+      const Vector3 axis = mounts[i].axis;
+      SimTK::MobilizedBody::Pin(parent, pinFrame(axis, mounts[i].p_PA_P),
+                                toBody(rotorInertia(options_.rotor_inertia[i], axis), "a rotor"),
+                                pinFrame(axis, Vector3::Zero()));
+    }
+  }
+
+  /// Three rows G udot = bias, wheel rates equal to those of rolling; the multipliers follow from
+  /// G M^-1 G^T. One articulated-body pass per row; Simbody's general constraint solver takes
+  /// twice the time of the whole tree for the same three rows.
+  void addRollingConstraint() {
+    const WheelRolling::Rows rows = rolling_.rows(tree_.base().R_WB);
+    const Vector3 bias = rolling_.bias(tree_.base());
+    const int n = static_cast<int>(rows.cols());
+    const auto rowsTimes = [&](const SimTK::Vector& v) -> Vector3 {
+      return Eigen::Map<const Vector3>(&v[wheel_u_]) -
+             rows * Eigen::Map<const Eigen::VectorXd>(&v[0], n);
+    };
+    Matrix3 A;  // G M^-1 G^T
+    for (int i = 0; i < kWheelCount; ++i) {
+      for (int k = 0; k < n; ++k) constraint_force_[k] = -rows(i, k);
+      constraint_force_[wheel_u_ + i] = 1;
+      tree_.matter.multiplyByMInv(tree_.state, constraint_force_, response_[i]);
+      constraint_force_[wheel_u_ + i] = 0;
+      A.col(i) = rowsTimes(response_[i]);
+    }
+    const Vector3 rhs = bias - rowsTimes(udot_);
+    const Vector3 multipliers = A.llt().solve(rhs);
+    for (int k = 0; k < nu_; ++k) {
+      udot_[k] += response_[0][k] * multipliers[0] + response_[1][k] * multipliers[1] +
+                  response_[2][k] * multipliers[2];
+    }
+  }
+
+  RobotParameters robot_;
+  MultibodyOptions options_;
+  RobotTree tree_;
+  WheelRolling rolling_;
+  int nq_ = 0, nu_ = 0, wheel_q_ = 0, wheel_u_ = 0;
+  SimTK::Vector udot_, constraint_force_;
+  std::array<SimTK::Vector, kWheelCount> response_;  ///< M^-1 G^T, by column
+  SimTK::Vector_<SimTK::SpatialVec> body_acceleration_;
+};
+
+}  // namespace
+
+std::unique_ptr<Multibody> makeFullMultibody(const RobotParameters& robot,
+                                             const MultibodyOptions& options) {
+  return std::make_unique<FullMultibody>(robot, options);
+}
+
+}  // namespace ballbot

@@ -1,0 +1,293 @@
+#include "plant/plant.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "model/frames.hpp"
+#include "plant/drive_bank.hpp"
+#include "plant/plant_dynamics.hpp"
+#include "plant/state_visitors.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr std::uint32_t kBlobVersion = 1;
+constexpr double kTwoPi = 6.283185307179586476925;
+
+/// What decides which numbers a saved state holds, in words.
+std::string stateForm(const PlantConfig& c) {
+  const PlantFidelity& f = c.fidelity;
+  return fmt::format(
+      "multibody {}, actuators {}, contact {}, drive period {}, delay of {} ticks, IMU period {}",
+      f.multibody == MultibodyStructure::kFull ? "full" : "reduced_wheels",
+      f.actuators == ActuatorLevel::kIdeal ? "ideal" : "series_elastic",
+      f.contact == ContactLevel::kRolling ? "rolling" : "rolling_with_spin_friction",
+      toText(c.drive_period), f.transport_delay ? c.transport_delay_ticks : 0,
+      toText(c.sensors.imu.period));
+}
+
+void requireFinite(const ActuatorCommand& command, SimTime t) {
+  const struct {
+    const char* name;
+    const JointVector& value;
+  } parts[] = {{"torque", command.torque},
+               {"position", command.position},
+               {"velocity", command.velocity},
+               {"stiffness", command.stiffness},
+               {"damping", command.damping}};
+  for (const auto& part : parts) {
+    for (int i = 0; i < kJointCount; ++i) {
+      if (std::isfinite(part.value[i])) continue;
+      throw NumericalError(fmt::format("command at {}: {} of {} {} is {}, must be finite",
+                                       toText(t), part.name, i < kWheelCount ? "wheel" : "arm joint",
+                                       i % kWheelCount + 1, part.value[i]));
+    }
+  }
+}
+
+}  // namespace
+
+class Plant::Impl {
+ public:
+  explicit Impl(const PlantConfig& config)
+      : config_(config),
+        form_(stateForm(config)),
+        ideal_actuators_(config.fidelity.actuators == ActuatorLevel::kIdeal),
+        environment_(config.pushes),
+        dynamics_(config),
+        rk4_(dynamics_.dim()),
+        state_(config, dynamics_.dim()) {
+    reset(kSimStart);
+  }
+
+  void reset(SimTime start) {
+    state_ = State(config_, dynamics_.dim());
+    State& s = state_;
+    s.start = s.now = s.last_tick = start;
+    dynamics_.multibody().place(config_.initial.pose, s.y.data());
+    dynamics_.actuators().reset();
+    dynamics_.multibody().realize(s.y.data());
+    s.drives.reset(dynamics_.multibody().joints());
+    s.yaw = config_.initial.pose.yaw;
+    const BaseMotion base = dynamics_.multibody().base();
+    s.imu.sample(start, dynamics_.specificForce(base, BaseAcceleration{}), Vector3::Zero());
+    observe();
+  }
+
+  void advanceTo(SimTime end, const ActuatorCommand& command) {
+    if (end <= state_.now) {
+      throw InputError(fmt::format("plant: asked to advance from {} to {}, must be later",
+                                   toText(state_.now), toText(end)));
+    }
+    requireFinite(command, state_.now);
+    try {
+      while (state_.now < end) substep(end, command);
+    } catch (const Error&) {
+      throw;
+    } catch (const std::exception& e) {  // Simbody's, e.g. of a quaternion that is not finite
+      throw NumericalError(fmt::format("plant at {}: {}", toText(state_.now), e.what()));
+    }
+    observe();
+  }
+
+  StateBlob save() const {
+    BlobWriter out;
+    out.putBlob(StateBlob(form_.begin(), form_.end()));
+    StateSaver saver(out);
+    visitState(state_, dynamics_.actuators(), saver);
+    return out.seal("plant", kBlobVersion);
+  }
+
+  void restore(const StateBlob& blob) {
+    BlobReader in(blob, "plant", kBlobVersion);
+    const StateBlob text = in.getBlob();
+    const std::string form(text.begin(), text.end());
+    if (form != form_) {
+      throw InputError(fmt::format("saved plant state is of a plant with {}; this one has {}", form,
+                                   form_));
+    }
+    State restored = state_;
+    PlantDynamics::Actuators actuators = dynamics_.actuators();
+    StateLoader loader(in);
+    visitState(restored, actuators, loader);
+    in.finish();
+    state_ = std::move(restored);
+    dynamics_.actuators() = std::move(actuators);
+    dynamics_.multibody().realize(state_.y.data());
+    observe();
+  }
+
+  std::uint64_t digest() const {
+    hasher_.clear();
+    visitState(state_, dynamics_.actuators(), hasher_);
+    return hasher_.hash();
+  }
+
+  SimTime now() const { return state_.now; }
+  const SensorFrame& sensors() const { return sensors_; }
+  const TruthFrame& truth() const { return truth_; }
+
+ private:
+  /// Together with the actuators all that must be saved to go on bit for bit.
+  struct State {
+    State(const PlantConfig& config, int dim)
+        : y(dim, 0.0),
+          drives(config),
+          imu(config.sensors.imu, config.fidelity.noisy_sensors, config.seed) {}
+
+    SimTime start{}, now{}, last_tick{};
+    std::vector<double> y;
+    double yaw = 0;  ///< continuous [rad]
+    DriveBank drives;
+    Imu imu;
+  };
+
+  template <typename AnyState, typename AnyActuators, typename Visitor>
+  static void visitState(AnyState& s, AnyActuators& actuators, Visitor& visit) {
+    visit(s.start);
+    visit(s.now);
+    visit(s.last_tick);
+    visit(s.y);
+    visit(s.yaw);
+    PlantDynamics::Actuators::visitState(actuators, visit);
+    DriveBank::visitState(s.drives, visit);
+    Imu::visitState(s.imu, visit);
+  }
+
+  bool isMultiple(SimTime t, SimDuration period) const {
+    return (t - state_.start) % period == SimDuration::zero();
+  }
+  /// First whole multiple of `period` since the start after `t`.
+  SimTime nextMultiple(SimTime t, SimDuration period) const {
+    return state_.start + ((t - state_.start) / period + 1) * period;
+  }
+
+  SimTime nextEvent(SimTime end) const {
+    const SimTime now = state_.now;
+    SimTime next = std::min({end, nextMultiple(now, config_.drive_period),
+                             nextMultiple(now, config_.sensors.imu.period),
+                             nextMultiple(now, config_.substep), environment_.nextChange(now)});
+    if (config_.initial.release > now) next = std::min(next, config_.initial.release);
+    return next;
+  }
+
+  /// From one event to the next, or to `end`.
+  void substep(SimTime end, const ActuatorCommand& command) {
+    State& s = state_;
+    if (isMultiple(s.now, config_.drive_period)) {
+      dynamics_.demand(s.drives.act(command), toSeconds(s.now - s.last_tick));
+      s.last_tick = s.now;
+    }
+    const bool held = s.now < config_.initial.release;
+    dynamics_.hold(held);
+    dynamics_.forces().clear();
+    environment_.addForces(s.now, dynamics_.forces());
+
+    const SimTime next = nextEvent(end);
+    rk4_.step(dynamics_, toSeconds(s.now - s.last_tick), toSeconds(next - s.now), s.y.data());
+    if (!held) dynamics_.project(s.y.data());
+    for (const double value : s.y) {
+      if (!std::isfinite(value)) {
+        throw NumericalError(fmt::format("plant at {}: the state is not finite any more",
+                                         toText(next)));
+      }
+    }
+    s.now = next;
+    arrive();
+  }
+
+  /// What happens at a point of time: the IMU closes its interval, the drives read their encoders.
+  void arrive() {
+    State& s = state_;
+    Multibody& robot = dynamics_.multibody();
+    robot.realize(s.y.data());
+    const double yaw = yawPitchRollFromRotation(robot.base().R_WB)[0];
+    s.yaw += std::remainder(yaw - s.yaw, kTwoPi);
+    if (isMultiple(s.now, config_.sensors.imu.period)) {
+      const double period = toSeconds(config_.sensors.imu.period);
+      auto force = PlantDynamics::forceIntegral(s.y.data(), dynamics_.dim());
+      auto rate = PlantDynamics::rateIntegral(s.y.data(), dynamics_.dim());
+      s.imu.sample(s.now, force / period, rate / period);
+      force.setZero();
+      rate.setZero();
+    }
+    if (isMultiple(s.now, config_.drive_period)) s.drives.sense(robot.joints());
+  }
+
+  /// Fills the frames from the realized state.
+  void observe() {
+    const JointMotion joints = dynamics_.multibody().joints();
+    const JointVector torque =
+        dynamics_.jointTorque(toSeconds(state_.now - state_.last_tick));
+    observeSensors(joints, torque);
+    observeTruth(joints, torque);
+  }
+
+  void observeSensors(const JointMotion& joints, const JointVector& torque) {
+    const JointEncoders& encoders = state_.drives.encoders();
+    const Imu::Sample& imu = state_.imu.last();
+    SensorFrame& f = sensors_;
+    f.time = state_.now;
+    f.motor_angle = encoders.motorAngle(joints);
+    f.joint_angle = encoders.jointAngle(joints);
+    f.joint_velocity = encoders.ideal() ? joints.velocity : encoders.readings().joint_velocity;
+    f.joint_torque = torque;
+    if (!ideal_actuators_ && !encoders.ideal()) {
+      for (int i = 0; i < kJointCount; ++i) {
+        f.joint_torque[i] = config_.actuators.of(i).spring_stiffness *
+                            (f.motor_angle[i] - f.joint_angle[i]);
+      }
+    }
+    f.imu_count = imu.count;
+    f.imu_time = imu.time;
+    f.accel_B = imu.accel_B;
+    f.gyro_WB_B = imu.gyro_WB_B;
+  }
+
+  void observeTruth(const JointMotion& joints, const JointVector& torque) {
+    const BaseMotion base = dynamics_.multibody().base();
+    const BodyMotion hand = dynamics_.multibody().body(kLink3Body);
+    const Vector3 angles = yawPitchRollFromRotation(base.R_WB);
+    TruthFrame& f = truth_;
+    f.time = state_.now;
+    f.state << base.p_WK.head<2>(), state_.yaw, angles[1], angles[2],
+        joints.angle.tail<kArmJointCount>(), base.v_WK_W.head<2>(),
+        base.R_WB.transpose() * base.w_WB_W, joints.velocity.tail<kArmJointCount>();
+    f.joint_angle = joints.angle;
+    f.joint_velocity = joints.velocity;
+    f.motor_angle = joints.rotor_angle;
+    f.joint_torque = torque;
+    f.p_WE = hand.p_WL + hand.R_WL * config_.robot.p_A3E;
+    const Eigen::Quaterniond q(Matrix3(hand.R_WL * config_.robot.R_A3E));
+    f.quat_WE << q.w(), q.x(), q.y(), q.z();
+    f.external_force_W = environment_.totalForce(state_.now);
+  }
+
+  PlantConfig config_;
+  std::string form_;
+  bool ideal_actuators_;
+  Environment environment_;
+  PlantDynamics dynamics_;
+  RungeKutta4 rk4_;
+  State state_;
+  SensorFrame sensors_;
+  TruthFrame truth_;
+  mutable StateHasher hasher_;
+};
+
+Plant::Plant(const PlantConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+Plant::~Plant() = default;
+void Plant::reset(SimTime start) { impl_->reset(start); }
+SimTime Plant::now() const { return impl_->now(); }
+void Plant::advanceTo(SimTime t, const ActuatorCommand& command) { impl_->advanceTo(t, command); }
+const SensorFrame& Plant::sensors() const { return impl_->sensors(); }
+const TruthFrame& Plant::truth() const { return impl_->truth(); }
+StateBlob Plant::saveState() const { return impl_->save(); }
+void Plant::restoreState(const StateBlob& blob) { impl_->restore(blob); }
+std::uint64_t Plant::stateDigest() const { return impl_->digest(); }
+
+}  // namespace ballbot

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "plant/integrator.hpp"
+#include "plant/multibody.hpp"
+#include "plant/plant_config.hpp"
+#include "plant/series_elastic_actuator.hpp"
+
+namespace ballbot {
+
+/// The plant between two events as one ordinary differential equation:
+///
+///   y = (multibody | integral of specific force, integral of angular velocity since the last IMU
+///        sample, both of the IMU in B)
+///
+/// What is constant between events (torque demands, pushes, whether the stand holds) is set before.
+/// The time of derivative() is the one since the last drive tick [s].
+class PlantDynamics final : public OdeSystem {
+ public:
+  explicit PlantDynamics(const PlantConfig& config);
+
+  int dim() const { return multibody_->stateDim() + 6; }
+  Multibody& multibody() { return *multibody_; }
+
+  void derivative(double since_tick, const double* y, double* ydot) override;
+  /// Back onto the constraints.
+  void project(double* y) const { multibody_->project(y); }
+
+  void hold(bool held) { held_ = held; }
+  std::vector<PointForce>& forces() { return loads_.forces; }
+
+  /// The actuators' state between two drive ticks.
+  struct Actuators {
+    std::vector<SeriesElasticActuator> units;
+    void reset() {
+      for (SeriesElasticActuator& unit : units) unit.reset();
+    }
+    template <typename Self, typename Visitor>
+    static void visitState(Self& self, Visitor& visit) {
+      for (auto& unit : self.units) SeriesElasticActuator::visitState(unit, visit);
+    }
+  };
+  Actuators& actuators() { return actuators_; }
+  const Actuators& actuators() const { return actuators_; }
+  /// New torque demands at a drive tick, `since_last` [s] after the one before.
+  void demand(const JointVector& motor_torque, double since_last);
+
+  /// Torque on the joints at the realized state [N m].
+  JointVector jointTorque(double since_tick);
+
+  /// Integrals since they were last cleared, at the end of y.
+  static Eigen::Map<Vector3> forceIntegral(double* y, int dim) {
+    return Eigen::Map<Vector3>(y + dim - 6);
+  }
+  static Eigen::Map<Vector3> rateIntegral(double* y, int dim) {
+    return Eigen::Map<Vector3>(y + dim - 3);
+  }
+  /// Specific force at the IMU, in B, for a base that moves so [m/s^2].
+  Vector3 specificForce(const BaseMotion& base, const BaseAcceleration& acceleration) const;
+
+ private:
+  void applyActuators(double since_tick);
+
+  PlantFidelity fidelity_;
+  RobotActuators parameters_;
+  SpinFriction spin_friction_;
+  double gravity_;
+  Vector3 p_BI_B_;
+  std::unique_ptr<Multibody> multibody_;
+  Actuators actuators_;
+  bool held_ = false;
+  MultibodyLoads loads_;
+};
+
+}  // namespace ballbot

@@ -1,0 +1,257 @@
+#include "plant/robot_tree.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "model/frames.hpp"
+
+namespace ballbot {
+namespace {
+
+using SimTK::Real;
+using SimTK::SpatialVec;
+using SimTK::Vec3;
+
+/// Moves in the horizontal plane of its parent: two velocities, no rotation.
+class HorizontalMobilizer : public SimTK::MobilizedBody::Custom::Implementation {
+ public:
+  explicit HorizontalMobilizer(SimTK::SimbodyMatterSubsystem& matter)
+      : Implementation(matter, 2, 2, 0) {}
+  Implementation* clone() const override { return new HorizontalMobilizer(*this); }
+  SimTK::Transform calcMobilizerTransformFromQ(const SimTK::State&, int,
+                                               const Real* q) const override {
+    return SimTK::Transform(Vec3(q[0], q[1], 0));
+  }
+  SpatialVec multiplyByHMatrix(const SimTK::State&, int, const Real* u) const override {
+    return {Vec3(0), Vec3(u[0], u[1], 0)};
+  }
+  void multiplyByHTranspose(const SimTK::State&, const SpatialVec& F, int, Real* f) const override {
+    f[0] = F[1][0];
+    f[1] = F[1][1];
+  }
+  SpatialVec multiplyByHDotMatrix(const SimTK::State&, int, const Real*) const override {
+    return {Vec3(0), Vec3(0)};
+  }
+  void multiplyByHDotTranspose(const SimTK::State&, const SpatialVec&, int,
+                               Real* f) const override {
+    f[0] = f[1] = 0;
+  }
+};
+
+}  // namespace
+
+Matrix3 toEigen(const SimTK::Rotation& R) {
+  Matrix3 out;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) out(i, j) = R[i][j];
+  }
+  return out;
+}
+
+SimTK::Body toBody(const BodyInertia& b, const std::string& name) {
+  const Vector3& c = b.p_LLcm_L;
+  const Matrix3 I = b.I_LLcm_L + b.mass * (c.squaredNorm() * Matrix3::Identity() - c * c.transpose());
+  try {
+    return SimTK::Body::Rigid(SimTK::MassProperties(
+        b.mass, toSimTK(c), SimTK::Inertia(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2))));
+  } catch (const std::exception& e) {
+    throw InputError(fmt::format(
+        "the inertia of {} is not that of a rigid body once wheels and rotors are taken apart: {}",
+        name, e.what()));
+  }
+}
+
+SimTK::Transform pinFrame(const Vector3& axis, const Vector3& p) {
+  return {SimTK::Rotation(SimTK::UnitVec3(toSimTK(axis)), SimTK::ZAxis), toSimTK(p)};
+}
+
+BodyInertia without(const BodyInertia& whole, BodyInertia part, const Vector3& p_WP) {
+  part.mass = -part.mass;
+  part.I_LLcm_L = -part.I_LLcm_L;
+  return composed(whole, part, p_WP);
+}
+
+RobotTree::RobotTree(const RobotParameters& robot, const BodyInertia& base,
+                     const std::array<BodyInertia, kArmJointCount>& links, bool ball_spin)
+    : matter(system),
+      ball_radius_(robot.ball.radius),
+      gravity_(robot.gravity),
+      ball_spin_(ball_spin) {
+  const double r = robot.ball.radius;
+  BodyInertia rolling;  // of the ball, as far as its rolling goes
+  rolling.mass = robot.ball.mass + robot.ball.inertia / (r * r);
+  const BodyInertia nothing;
+  SimTK::MobilizedBody::Custom carriage(matter.Ground(), new HorizontalMobilizer(matter),
+                                        SimTK::Transform(Vec3(0, 0, r)),
+                                        toBody(ball_spin ? nothing : rolling, "the ball"),
+                                        SimTK::Transform());
+  bodies_[kBallBody] = carriage;
+  if (ball_spin) {
+    rolling.I_LLcm_L = robot.ball.inertia * Matrix3::Identity();
+    bodies_[kBallBody] = SimTK::MobilizedBody::Pin(carriage, toBody(rolling, "the ball"));
+  }
+  bodies_[kBaseBody] = SimTK::MobilizedBody::Ball(carriage, toBody(base, "the base"));
+  for (int j = 0; j < kArmJointCount; ++j) {
+    const ArmLink& link = robot.arm[j];
+    bodies_[kLink1Body + j] = SimTK::MobilizedBody::Pin(
+        bodies_[kBaseBody + j], pinFrame(link.axis, link.p_PJ_P), toBody(links[j], link.name),
+        pinFrame(link.axis, Vector3::Zero()));
+  }
+  for (int b = 0; b < kBodyCount; ++b) index_[b] = bodies_[b].getMobilizedBodyIndex();
+
+  const BodyInertia whole_base = robot.baseWithWheels();
+  weight_[kBallBody].mass = robot.ball.mass;
+  weight_[kBaseBody] = {whole_base.mass, whole_base.p_LLcm_L};
+  for (int j = 0; j < kArmJointCount; ++j) {
+    const BodyInertia& link = robot.arm[j].inertia;
+    weight_[kLink1Body + j] = {link.mass, link.p_LLcm_L};
+  }
+  const BodyInertia last = robot.lastLinkWithPayload();
+  weight_[kLink3Body] = {last.mass, last.p_LLcm_L};
+}
+
+void RobotTree::finishTopology() {
+  state = system.realizeTopology();
+  system.realizeModel(state);
+  system.realize(state, SimTK::Stage::Instance);
+  nq_ = state.getNQ();
+  nu_ = state.getNU();
+  mobility_forces_.resize(nu_);
+  body_forces_.resize(matter.getNumBodies());
+}
+
+void RobotTree::realize(const double* q, const double* u) {
+  // The end of one step is the start of the next; what is realized already stays so.
+  const std::size_t q_bytes = nq_ * sizeof(double), u_bytes = nu_ * sizeof(double);
+  if (realized_ && std::memcmp(&state.getQ()[0], q, q_bytes) == 0) {
+    if (std::memcmp(&state.getU()[0], u, u_bytes) == 0) return;
+    std::memcpy(&state.updU()[0], u, u_bytes);
+  } else {
+    std::memcpy(&state.updQ()[0], q, q_bytes);
+    std::memcpy(&state.updU()[0], u, u_bytes);
+  }
+  realized_ = false;  // in case the next line throws
+  system.realize(state, SimTK::Stage::Velocity);
+  realized_ = true;
+  for (int b = 0; b < kBodyCount; ++b) {
+    const SimTK::Transform& X = bodies_[b].getBodyTransform(state);
+    const SpatialVec& V = bodies_[b].getBodyVelocity(state);
+    motion_[b] = {toEigen(X.p()), toEigen(X.R()), toEigen(V[1]), toEigen(V[0])};
+  }
+  const BodyMotion& base = motion_[kBaseBody];
+  base_motion_ = {base.p_WL, base.R_WL, base.v_WL_W, base.w_WL_W, ball_spin_ ? u[2] : 0};
+}
+
+void RobotTree::collectForces(const MultibodyLoads& loads) {
+  mobility_forces_ = 0;
+  body_forces_ = SpatialVec(Vec3(0), Vec3(0));
+  for (int b = kBaseBody; b < kBodyCount; ++b) {  // the ball's weight acts on the floor only
+    const Vector3 weight{0, 0, -gravity_ * weight_[b].mass};
+    const Vector3 arm = motion_[b].R_WL * weight_[b].p_LLcm_L;
+    body_forces_[index_[b]] += SpatialVec(toSimTK(arm.cross(weight)), toSimTK(weight));
+  }
+  for (const PointForce& f : loads.forces) {
+    const Vec3 force = toSimTK(f.force_W);
+    if (f.body == kBallBody) {
+      // Virtual work of force and torque on a ball that rolls: v = (vx, vy), w = (-vy, vx)/r.
+      const Vector3 torque = f.p_BP_B.cross(f.force_W);
+      mobility_forces_[0] += force[0] + torque.y() / ball_radius_;
+      mobility_forces_[1] += force[1] - torque.x() / ball_radius_;
+      if (ball_spin_) mobility_forces_[2] += torque.z();
+    } else {
+      const Vector3 arm = motion_[f.body].R_WL * f.p_BP_B;
+      body_forces_[index_[f.body]] += SpatialVec(toSimTK(arm.cross(f.force_W)), force);
+    }
+  }
+  if (ball_spin_) mobility_forces_[2] += loads.ball_spin_torque;
+  for (int j = 0; j < kArmJointCount; ++j) {
+    mobility_forces_[armUOffset() + j] += loads.joint_torque[kWheelCount + j];
+  }
+}
+
+void RobotTree::place(const RobotPose& pose, double* q, double* u) const {
+  std::fill(q, q + nq_, 0.0);
+  std::fill(u, u + nu_, 0.0);
+  q[0] = pose.px;
+  q[1] = pose.py;
+  const Eigen::Quaterniond quat(rotationFromYawPitchRoll(pose.yaw, pose.pitch, pose.roll));
+  q += quaternionOffset();
+  q[0] = quat.w();
+  q[1] = quat.x();
+  q[2] = quat.y();
+  q[3] = quat.z();
+  Eigen::Map<Vector3>(q + 4) = pose.arm;
+}
+
+void RobotTree::setVelocity(const double* q, const VelocityVector& nu, double ball_spin,
+                            double* u) const {
+  u[0] = nu[kBallVx];
+  u[1] = nu[kBallVy];
+  if (ball_spin_) u[2] = ball_spin;
+  Eigen::Map<Vector3>(u + omegaOffset()) = rotationFromQ(q) * nu.segment<3>(kOmegaX);
+  Eigen::Map<Vector3>(u + armUOffset()) = nu.segment<3>(kArmRate1);
+}
+
+Matrix3 RobotTree::rotationFromQ(const double* q) const {
+  q += quaternionOffset();
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+}
+
+void RobotTree::normalizeQuaternion(double* q) const {
+  Eigen::Map<Eigen::Vector4d> quat(q + quaternionOffset());
+  quat /= quat.norm();
+}
+
+double RobotTree::potentialEnergy() const {
+  double energy = 0;
+  for (int b = 0; b < kBodyCount; ++b) {
+    const Vector3 p = motion_[b].p_WL + motion_[b].R_WL * weight_[b].p_LLcm_L;
+    energy += weight_[b].mass * gravity_ * p.z();
+  }
+  return energy;
+}
+
+std::array<ActuatorMount, kJointCount> actuatorMounts(const RobotParameters& robot) {
+  std::array<ActuatorMount, kJointCount> mounts;
+  for (int i = 0; i < kWheelCount; ++i) {
+    mounts[i] = {kBaseBody, robot.wheelAxle(i), robot.wheelCentre(i)};
+  }
+  for (int j = 0; j < kArmJointCount; ++j) {
+    mounts[kWheelCount + j] = {static_cast<BodyIndex>(kBaseBody + j), robot.arm[j].axis,
+                               robot.arm[j].p_PJ_P};
+  }
+  return mounts;
+}
+
+WheelRolling::WheelRolling(const RobotParameters& robot, bool ball_spin)
+    : ball_radius_(robot.ball.radius), wheel_radius_(robot.wheels.radius), ball_spin_(ball_spin) {
+  for (int i = 0; i < kWheelCount; ++i) axles_B_.col(i) = robot.wheelAxle(i);
+}
+
+WheelRolling::Rows WheelRolling::rows(const Matrix3& R_WB) const {
+  const Matrix3 d = (R_WB * axles_B_).transpose();  // rows: axles in W
+  const double ratio = ball_radius_ / wheel_radius_;
+  Rows out(kWheelCount, ball_spin_ ? 6 : 5);
+  out.col(0) = -d.col(1) / wheel_radius_;
+  out.col(1) = d.col(0) / wheel_radius_;
+  if (ball_spin_) out.col(2) = -ratio * d.col(2);
+  out.rightCols<3>() = ratio * d;
+  return out;
+}
+
+Vector3 WheelRolling::bias(const BaseMotion& base) const {
+  const Vector3 kappa{-base.v_WK_W.y() / ball_radius_, base.v_WK_W.x() / ball_radius_,
+                      base.ball_spin};
+  return ball_radius_ / wheel_radius_ * (base.R_WB * axles_B_).transpose() *
+         base.w_WB_W.cross(kappa);
+}
+
+Vector3 WheelRolling::rates(const Matrix3& R_WB, const double* u) const {
+  return rows(R_WB) * Eigen::Map<const Eigen::VectorXd>(u, ball_spin_ ? 6 : 5);
+}
+
+}  // namespace ballbot

@@ -1,0 +1,125 @@
+#pragma once
+
+// Includes Simbody: for multibody_full.cpp, multibody_reduced.cpp and robot_tree.cpp only.
+#include <Simbody.h>
+
+#include <array>
+
+#include "plant/multibody.hpp"
+
+namespace ballbot {
+
+inline SimTK::Vec3 toSimTK(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+inline Vector3 toEigen(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }
+Matrix3 toEigen(const SimTK::Rotation& R);
+
+/// @throw InputError naming the body if this cannot be the inertia of a rigid body.
+SimTK::Body toBody(const BodyInertia& inertia, const std::string& name);
+
+/// Frame whose z axis is `axis`, at `p`: what a pin joint turns about.
+SimTK::Transform pinFrame(const Vector3& axis, const Vector3& p);
+
+/// `whole` without `part`, whose origin is at p_WP in whole's frame; axes are parallel.
+BodyInertia without(const BodyInertia& whole, BodyInertia part, const Vector3& p_WP);
+
+/// The bodies that both structures share: carriage (the ball as it rolls), base and three arm
+/// links, and where their coordinates lie in Simbody's q and u:
+///
+///   q = (px, py, [ball spin angle], quaternion of R_WB, arm angles | what the structure adds)
+///   u = (vx, vy, [ball spin], w_WB_W, arm rates | what the structure adds)
+///
+/// Rolling without slip ties the horizontal part of the ball's angular velocity to its velocity, so
+/// ball and carriage are one point of mass m_K + I_K / r^2 (exact on a level floor). With ball spin
+/// that point is the origin of a body that turns about the vertical with I_K.
+class RobotTree {
+ public:
+  /// base and links may differ from the robot's: the structures put wheels and rotors in or out.
+  /// Gravity acts on the robot's, wheels and rotors being where their carriers are.
+  RobotTree(const RobotParameters& robot, const BodyInertia& base,
+            const std::array<BodyInertia, kArmJointCount>& links, bool ball_spin);
+
+  /// To be called once, after further bodies were added.
+  void finishTopology();
+
+  /// Puts q and u into the state and realizes it to Stage::Velocity, unless it is there already.
+  void realize(const double* q, const double* u);
+
+  const BaseMotion& base() const { return base_motion_; }
+  const BodyMotion& body(BodyIndex body) const { return motion_[body]; }
+  const SimTK::MobilizedBody& mobilizedBody(BodyIndex body) const { return bodies_[body]; }
+
+  /// Gravity and loads.forces as Simbody wants them: one spatial force per body in bodyForces(),
+  /// the ball's part and the arm torques in mobilityForces(). Overwrites both.
+  void collectForces(const MultibodyLoads& loads);
+  SimTK::Vector& mobilityForces() { return mobility_forces_; }
+  SimTK::Vector_<SimTK::SpatialVec>& bodyForces() { return body_forces_; }
+
+  /// q and u at rest in the given pose; only the shared coordinates are written.
+  void place(const RobotPose& pose, double* q, double* u) const;
+  void setVelocity(const double* q, const VelocityVector& nu, double ball_spin, double* u) const;
+  Matrix3 rotationFromQ(const double* q) const;
+  void normalizeQuaternion(double* q) const;
+
+  double kineticEnergy() const { return matter.calcKineticEnergy(state); }
+  double potentialEnergy() const;
+
+  int nq() const { return nq_; }
+  int nu() const { return nu_; }
+  int quaternionOffset() const { return ball_spin_ ? 3 : 2; }
+  int omegaOffset() const { return ball_spin_ ? 3 : 2; }
+  int armQOffset() const { return quaternionOffset() + 4; }
+  int armUOffset() const { return omegaOffset() + 3; }
+  /// Coordinates up to here move base and ball, those that make wheels turn.
+  int platformDim() const { return armUOffset(); }
+  bool ballSpin() const { return ball_spin_; }
+
+  SimTK::MultibodySystem system;
+  SimTK::SimbodyMatterSubsystem matter;
+  SimTK::State state;
+
+ private:
+  double ball_radius_, gravity_;
+  bool ball_spin_;
+  int nq_ = 0, nu_ = 0;
+  std::array<SimTK::MobilizedBody, kBodyCount> bodies_;
+  std::array<SimTK::MobilizedBodyIndex, kBodyCount> index_;
+  struct Weight {
+    double mass = 0;
+    Vector3 p_LLcm_L = Vector3::Zero();
+  };
+  std::array<Weight, kBodyCount> weight_;  ///< wheels and rotors with their carrier
+  std::array<BodyMotion, kBodyCount> motion_;
+  BaseMotion base_motion_;
+  SimTK::Vector mobility_forces_;
+  SimTK::Vector_<SimTK::SpatialVec> body_forces_;
+  bool realized_ = false;
+};
+
+/// Where an actuator's housing sits: wheels on the base, arm joints on the link before.
+struct ActuatorMount {
+  BodyIndex parent;
+  Vector3 axis;      ///< unit, in parent's axes
+  Vector3 p_PA_P;    ///< in the parent's frame [m]
+};
+std::array<ActuatorMount, kJointCount> actuatorMounts(const RobotParameters& robot);
+
+/// Wheel rates as a linear function of the platform's velocities u = (vx, vy, [spin], w_WB_W):
+///   dphi_i = row_i u,  ddphi_i = row_i udot + bias_i,
+/// from dphi_i = -(r/r_w) d_i . (kappa - w), with kappa = (-vy/r, vx/r, spin) the ball's and w the
+/// base's angular velocity.
+class WheelRolling {
+ public:
+  using Rows = Eigen::Matrix<double, kWheelCount, Eigen::Dynamic, 0, kWheelCount, 6>;
+
+  WheelRolling(const RobotParameters& robot, bool ball_spin);
+  Rows rows(const Matrix3& R_WB) const;
+  Vector3 bias(const BaseMotion& base) const;  ///< [rad/s^2]
+  Vector3 rates(const Matrix3& R_WB, const double* u) const;
+
+ private:
+  double ball_radius_, wheel_radius_;
+  bool ball_spin_;
+  Matrix3 axles_B_;  ///< columns d_i
+};
+
+}  // namespace ballbot
