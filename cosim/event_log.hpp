@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -28,11 +29,14 @@ class EventLogWriter {
   std::int64_t bytesWritten() const { return written_ + static_cast<std::int64_t>(buffer_.size()); }
 
  private:
+  [[noreturn]] void giveUp(std::size_t done, int error);
+
   std::string path_;
   int file_ = -1;
   std::int64_t number_ = 0;
-  std::int64_t written_ = 0;  // in the file, whole events
-  std::vector<std::uint8_t> buffer_;
+  std::int64_t written_ = 0;          // bytes in the file
+  std::vector<std::uint8_t> buffer_;  // whole events
+  std::vector<std::size_t> ends_;     // where each ends
 };
 
 }  // namespace ballbot

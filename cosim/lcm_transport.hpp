@@ -11,8 +11,10 @@ namespace ballbot {
 /// Where two processes of a run meet.
 struct LcmAddress {
   std::string url;      ///< LCM provider, e.g. "udpm://239.255.76.67:7667?ttl=0"
-  std::string channel;  ///< requests travel on CHANNEL_REQUEST, replies on CHANNEL_REPLY
+  std::string channel;  ///< first part of the two LCM channels' names
 };
+constexpr const char* kRequestSuffix = "_REQUEST";
+constexpr const char* kReplySuffix = "_REPLY";
 
 /// The meeting place when nobody says otherwise, for processes started by hand in several
 /// terminals. ttl 0: nothing leaves this machine.

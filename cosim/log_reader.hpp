@@ -43,9 +43,11 @@ class LogReader {
   bool cutOff() const { return cut_off_; }
 
  private:
+  bool take(void* to, std::size_t size);
+
   std::string path_;
   std::ifstream file_;
-  std::int64_t position_ = 0;
+  std::int64_t position_ = 0, event_begin_ = 0;  // [byte]
   bool cut_off_ = false;
 };
 

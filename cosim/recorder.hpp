@@ -53,15 +53,15 @@ class Recorder {
  private:
   template <typename Message>
   void take(Channel channel, SimTime time, SimDuration period, const Message& message);
-  void hashTick(const Tick& tick);
+  void beginTick(const Tick& tick);
+  void addHash(Channel channel, std::uint64_t hash);
   void writeDigests();
 
   RecorderOptions options_;
   std::unique_ptr<EventLogWriter> log_;
   Digest digest_;
   std::array<SimTime, kChannelCount> next_due_{};
-  std::array<std::int32_t, kChannelCount> hashes_{};
-  SimTime next_flush_{};
+  SimTime next_flush_{}, last_time_{};
   ballbot_msgs::sensor_frame sensors_{};
   ballbot_msgs::truth_frame truth_{};
   ballbot_msgs::actuator_command command_{};

@@ -30,7 +30,7 @@ struct RemoteOptions {
 /// A participant in another process, reached by the step protocol. The master cannot tell it from
 /// one in its own process.
 ///
-/// Calls throw, besides what the participant itself throws at the far end (same kind of Error):
+/// Calls throw what the participant throws at the far end, as an Error of the same exit code, and:
 /// @throw LostParticipantError nobody answers, or the far end is known to be gone
 /// @throw InputError the far end refused: other version, other configuration, in use by another
 ///        run, or two participants answer
@@ -63,14 +63,14 @@ class RemoteParticipant final : public Participant {
 
  private:
   void exchange(WallDuration patience) const;
-  void await(WallDuration patience) const;
-  void accept();
-  [[noreturn]] void raise() const;
-  [[noreturn]] void lost(WallDuration waited, int tries) const;
+  bool replyWithin(WallDuration wait) const;
+  void adoptReply();
+  void throwUnlessOk() const;
+  [[noreturn]] void throwLost(WallDuration waited, int tries) const;
 
   Transport& transport_;
   RemoteOptions options_;
-  // saveState() is const to the caller, yet it talks.
+  // saveState() is const to its caller, yet it talks.
   mutable std::unique_ptr<StepClient> client_;
   mutable RetransmissionTimer timer_;
   mutable LinkStatistics statistics_;

@@ -15,7 +15,7 @@ namespace ballbot {
 /// and no socket; cosim/remote_participant.hpp puts both around it.
 ///
 /// One request is outstanding at a time; pending() may be sent as often as needed. Methods that
-/// build a request need the reply to the one before, except bye and abort.
+/// build a request need the reply to the one before, except abort.
 class StepClient {
  public:
   /// @param session a number no other run has; not 0.
@@ -27,6 +27,9 @@ class StepClient {
   const Bytes& restore(const StateBlob& blob, std::size_t offset);
   const Bytes& reset(SimTime start);
   const Bytes& bye();
+  /// After the reply to bye: tells the far end that it need not wait for a repeated bye. No reply
+  /// comes.
+  const Bytes& farewell();
   const Bytes& abort();
 
   /// The request that waits for its reply.

@@ -3,12 +3,12 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
+#include <utility>
 
 #include "core/state_blob.hpp"
 #include "core/time.hpp"
-#include "cosim/lifecycle.hpp"
+#include "cosim/participant.hpp"
 #include "cosim/recorder.hpp"
 #include "cosim/schedule.hpp"
 #include "cosim/stepped_controller.hpp"
@@ -26,9 +26,9 @@ struct MasterOptions {
 /// Whole state of a run between two events.
 struct Checkpoint {
   SimTime time{};
-  std::int64_t tick = 0;  ///< number of the next event
+  std::int64_t tick = 0;    ///< number of the next event
+  ActuatorCommand command;  ///< in force
   StateBlob participant, controller;
-  ControlOutput control;
 
   StateBlob toBlob() const;
   /// @throw InputError as BlobReader.
@@ -40,7 +40,9 @@ struct Checkpoint {
 /// be in this process (plant, FMU) or in another (RemoteParticipant).
 class StepMaster {
  public:
-  /// All must outlive this; `recorder` may be null.
+  /// All must outlive this; `recorder` may be null. A participant in this process comes wrapped in
+  /// a Lifecycle, one in another process has it there.
+  /// @throw InputError if the run would not end after its start.
   StepMaster(Participant& participant, SteppedController& controller, const EventCalendar& calendar,
              Recorder* recorder, MasterOptions options);
 
@@ -75,10 +77,9 @@ class StepMaster {
   void replaceParticipant(Participant& fresh);
 
  private:
-  void bringToStepMode();
   void processEvent();
 
-  std::unique_ptr<Lifecycle> participant_;
+  Participant* participant_;
   SteppedController& controller_;
   const EventCalendar& calendar_;
   Recorder* recorder_;
@@ -87,6 +88,7 @@ class StepMaster {
   SimTime time_{};
   std::int64_t tick_ = 0;
   ControlOutput control_;
+  bool initialized_ = false;
   std::optional<End> ended_;
 };
 

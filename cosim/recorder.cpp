@@ -1,0 +1,125 @@
+#include "cosim/recorder.hpp"
+
+#include "core/config_reader.hpp"
+#include "messages/convert.hpp"
+
+namespace ballbot {
+namespace {
+
+// So often, in simulated time, the log is handed to the operating system.
+constexpr SimDuration kFlushPeriod{100'000'000};
+constexpr SimDuration kDigestPeriod{10'000'000};
+// More would not fit into one message, should events be that dense.
+constexpr std::int32_t kMaxTicksPerMessage = 40;
+
+SimTime nextMultiple(SimTime t, SimDuration period) {
+  return SimTime{(t.time_since_epoch() / period + 1) * period};
+}
+
+// Never 0, which stands for no message.
+std::int32_t shortHash(std::uint64_t hash) {
+  const auto low = static_cast<std::int32_t>(hash);
+  return low == 0 ? 1 : low;
+}
+
+}  // namespace
+
+void RecorderOptions::read(ConfigReader& in) {
+  const Range any{-1, kInf};
+  sensors = in.durationOr("sensors_period_ms", sensors, any);
+  truth = in.durationOr("truth_period_ms", truth, any);
+  estimate = in.durationOr("estimate_period_ms", estimate, any);
+  plan = in.durationOr("plan_period_ms", plan, any);
+  command = in.durationOr("command_period_ms", command, any);
+}
+
+Recorder::Recorder(RecorderOptions options) : options_(std::move(options)) {
+  if (!options_.log_path.empty()) log_ = std::make_unique<EventLogWriter>(options_.log_path);
+  tick_digests_.offset_ns.reserve(kMaxTicksPerMessage);
+  tick_digests_.hash.reserve(kMaxTicksPerMessage * kChannelCount);
+}
+
+void Recorder::record(const Tick& tick) {
+  beginTick(tick);
+  toMessage(tick.sensors, tick.number, sensors_);
+  take(Channel::kSensors, tick.time, options_.sensors, sensors_);
+  if (tick.truth) {
+    toMessage(*tick.truth, tick.number, truth_);
+    take(Channel::kTruth, tick.time, options_.truth, truth_);
+  }
+  if (tick.control.has_estimate) {
+    estimate_ = tick.control.estimate;
+    estimate_.tick = tick.number;
+    take(Channel::kEstimate, tick.time, options_.estimate, estimate_);
+  }
+  if (tick.control.has_plan) {
+    plan_ = tick.control.plan;
+    plan_.tick = tick.number;
+    take(Channel::kPlan, tick.time, options_.plan, plan_);
+  }
+  toMessage(tick.control.command, tick.number, tick.time, command_);
+  take(Channel::kCommand, tick.time, options_.command, command_);
+  addHash(Channel::kStateDigest, tick.state_digest);
+  digest_.add(static_cast<std::int64_t>(tick.state_digest));
+
+  if (log_ && tick.time >= next_flush_) {
+    log_->flush();
+    next_flush_ = nextMultiple(tick.time, kFlushPeriod);
+  }
+}
+
+template <typename Message>
+void Recorder::take(Channel channel, SimTime time, SimDuration period, const Message& message) {
+  encodeMessage(message, bytes_);
+  digest_.add(bytes_.data(), bytes_.size());
+  addHash(channel, hash64(bytes_.data(), bytes_.size()));
+  if (!log_ || period.count() < 0) return;
+  if (period.count() > 0) {
+    SimTime& next_due = next_due_[static_cast<std::size_t>(channel)];
+    if (time < next_due) return;
+    next_due = nextMultiple(time, period);
+  }
+  log_->write(time, channelName(channel), bytes_);
+}
+
+void Recorder::beginTick(const Tick& tick) {
+  digest_.add(toNs(tick.time));
+  if (!log_) return;
+  const SimTime first = simTimeFromNs(tick_digests_.first_time_ns);
+  if (tick_digests_.tick_count > 0 && (tick.time >= nextMultiple(first, kDigestPeriod) ||
+                                       tick_digests_.tick_count == kMaxTicksPerMessage)) {
+    writeDigests();
+  }
+  if (tick_digests_.tick_count == 0) {
+    tick_digests_.first_tick = tick.number;
+    tick_digests_.first_time_ns = toNs(tick.time);
+  }
+  tick_digests_.offset_ns.push_back(
+      static_cast<std::int32_t>(toNs(tick.time) - tick_digests_.first_time_ns));
+  tick_digests_.hash.resize(tick_digests_.hash.size() + kChannelCount, 0);
+  ++tick_digests_.tick_count;
+  last_time_ = tick.time;
+}
+
+void Recorder::addHash(Channel channel, std::uint64_t hash) {
+  if (!log_) return;
+  const std::size_t tick_begin = tick_digests_.hash.size() - kChannelCount;
+  tick_digests_.hash[tick_begin + static_cast<std::size_t>(channel)] = shortHash(hash);
+}
+
+void Recorder::writeDigests() {
+  tick_digests_.hash_count = static_cast<std::int32_t>(tick_digests_.hash.size());
+  encodeMessage(tick_digests_, bytes_);
+  log_->write(last_time_, kTickDigestsChannel, bytes_);
+  tick_digests_.tick_count = 0;
+  tick_digests_.offset_ns.clear();
+  tick_digests_.hash.clear();
+}
+
+void Recorder::close() {
+  if (!log_) return;
+  if (tick_digests_.tick_count > 0) writeDigests();
+  log_->close();
+}
+
+}  // namespace ballbot

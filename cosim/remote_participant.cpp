@@ -1,0 +1,199 @@
+#include "cosim/remote_participant.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "cosim/session_id.hpp"
+#include "messages/convert.hpp"
+
+namespace ballbot {
+namespace {
+
+using Reply = ballbot_msgs::step_reply;
+using std::chrono::milliseconds;
+
+std::int64_t wholeMilliseconds(WallDuration d) {
+  return std::chrono::duration_cast<milliseconds>(d).count();
+}
+
+}  // namespace
+
+RemoteParticipant::RemoteParticipant(Transport& transport, RemoteOptions options)
+    : transport_(transport), options_(std::move(options)) {}
+
+RemoteParticipant::~RemoteParticipant() {
+  if (!client_) return;
+  client_->abort();
+  const auto give_up = WallClock::now() + milliseconds{100};
+  while (WallClock::now() < give_up) {
+    transport_.send(client_->pending().data(), client_->pending().size());
+    if (!transport_.receive(received_, milliseconds{10})) continue;
+    if (client_->receive(received_.data(), received_.size()) == StepClient::Received::kReply)
+      return;
+  }
+}
+
+void RemoteParticipant::enterInitializationMode(SimTime start) {
+  if (reset_pending_ && client_) {
+    client_->reset(start);
+    exchange(options_.patience);
+  } else {
+    client_ = std::make_unique<StepClient>(static_cast<std::int64_t>(drawSessionId()),
+                                           options_.config_digest);
+    client_->hello(start);
+    exchange(options_.first_patience);
+  }
+  reset_pending_ = false;
+  adoptReply();
+}
+
+void RemoteParticipant::doStep(SimTime now, SimDuration step, const ActuatorCommand& command) {
+  client_->step(now, step, command);
+  exchange(options_.patience);
+  adoptReply();
+}
+
+void RemoteParticipant::terminate() {
+  client_->bye();
+  exchange(options_.patience);
+  const Bytes& farewell = client_->farewell();
+  transport_.send(farewell.data(), farewell.size());
+  statistics_.ignored = client_->ignored();
+  client_.reset();
+}
+
+// Acts when the participant is initialised again: the far end knows one request for both.
+void RemoteParticipant::reset() { reset_pending_ = true; }
+
+StateBlob RemoteParticipant::saveState() const {
+  StateBlob blob;
+  do {
+    client_->save(blob.size());
+    exchange(options_.patience);
+    const Reply& reply = client_->reply();
+    if (reply.chunk.empty() || reply.blob_offset != static_cast<std::int32_t>(blob.size())) {
+      throw LostParticipantError(options_.name,
+                                 options_.name + " sent no further part of its state");
+    }
+    blob.insert(blob.end(), reply.chunk.begin(), reply.chunk.end());
+  } while (static_cast<std::int32_t>(blob.size()) < client_->reply().blob_size);
+  return blob;
+}
+
+void RemoteParticipant::restoreState(const StateBlob& blob) {
+  if (blob.size() > kMaxStateBytes) {
+    throw InputError(fmt::format("saved {} state: {} bytes, at most {} can be sent", options_.name,
+                                 blob.size(), kMaxStateBytes));
+  }
+  for (std::size_t sent = 0; sent < blob.size(); sent += kChunkBytes) {
+    client_->restore(blob, sent);
+    exchange(options_.patience);
+  }
+  adoptReply();
+}
+
+RemoteParticipant::LinkStatistics RemoteParticipant::statistics() const {
+  LinkStatistics now = statistics_;
+  if (client_) now.ignored = client_->ignored();
+  return now;
+}
+
+// Sends the pending request until its reply is there.
+void RemoteParticipant::exchange(WallDuration patience) const {
+  ++statistics_.requests;
+  const WallClock::time_point started = WallClock::now();
+  for (int tries = 0;; ++tries) {
+    if (options_.stop != nullptr && options_.stop->load()) {
+      throw InterruptedError("stopped while waiting for " + options_.name);
+    }
+    const WallDuration waited = WallClock::now() - started;
+    if (tries > 0) {
+      const std::string trouble = options_.peer_trouble ? options_.peer_trouble() : std::string{};
+      if (!trouble.empty()) {
+        throw LostParticipantError(options_.name, options_.name + " " + trouble);
+      }
+      if (waited >= patience) throwLost(waited, tries);
+      ++statistics_.repeated;
+    }
+    transport_.send(client_->pending().data(), client_->pending().size());
+    if (!replyWithin(timer_.wait(tries))) continue;
+    if (tries == 0) timer_.measured(WallClock::now() - started);
+    return throwUnlessOk();
+  }
+}
+
+bool RemoteParticipant::replyWithin(WallDuration wait) const {
+  const WallClock::time_point until = WallClock::now() + wait;
+  for (WallDuration left = wait; left > WallDuration{}; left = until - WallClock::now()) {
+    if (!transport_.receive(received_, left)) return false;
+    switch (client_->receive(received_.data(), received_.size())) {
+      case StepClient::Received::kReply:
+        return true;
+      case StepClient::Received::kIgnored:
+        break;
+      case StepClient::Received::kOtherVersion:
+        throw InputError(fmt::format(
+            "{} answers with other message definitions than this program's. Build both from the "
+            "same sources.",
+            options_.name));
+      case StepClient::Received::kSecondServer:
+        throw InputError(fmt::format(
+            "two processes answer as '{}' on {}. Stop one, or give each run a channel of its own.",
+            options_.name, transport_.describe()));
+    }
+  }
+  return false;
+}
+
+void RemoteParticipant::adoptReply() {
+  const Reply& reply = client_->reply();
+  fromMessage(reply.sensors, sensors_);
+  state_digest_ = static_cast<std::uint64_t>(reply.state_digest);
+  if (reply.truth_count == 1) {
+    if (!truth_) truth_.emplace();
+    fromMessage(reply.truth[0], *truth_);
+  } else {
+    truth_.reset();
+  }
+}
+
+void RemoteParticipant::throwUnlessOk() const {
+  const Reply& reply = client_->reply();
+  if (reply.status == Reply::OK) return;
+  if (reply.status == Reply::REFUSED) {
+    const std::string text = reply.text;
+    client_.reset();  // there is no session to abort
+    throw InputError(text);
+  }
+  if (reply.status == Reply::FAILED) {
+    switch (static_cast<ExitCode>(reply.exit_code)) {
+      case ExitCode::kBadInput:
+        throw InputError(reply.text);
+      case ExitCode::kOutputFailed:
+        throw OutputError(reply.text);
+      case ExitCode::kInterrupted:
+        throw InterruptedError(reply.text);
+      default:
+        break;
+    }
+  }
+  throw LostParticipantError(options_.name, reply.text);
+}
+
+void RemoteParticipant::throwLost(WallDuration waited, int tries) const {
+  std::string hint;
+  if (client_->ignored().foreign > 0) {
+    hint = fmt::format(" {} messages of another run came instead: is the channel in use twice?",
+                       client_->ignored().foreign);
+  }
+  throw LostParticipantError(
+      options_.name,
+      fmt::format("no reply from '{}' within {} ms ({} tries of request {}), on {}. Is it running, "
+                  "and on the same LCM URL?{} Try: ballbot doctor",
+                  options_.name, wholeMilliseconds(waited), tries, client_->sequence(),
+                  transport_.describe(), hint));
+}
+
+}  // namespace ballbot

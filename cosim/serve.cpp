@@ -1,0 +1,143 @@
+#include "cosim/serve.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "ballbot_msgs/step_reply.hpp"
+#include "ballbot_msgs/step_request.hpp"
+#include "core/error.hpp"
+#include "cosim/session_id.hpp"
+#include "cosim/step_server.hpp"
+
+namespace ballbot {
+namespace {
+
+using std::chrono::milliseconds;
+
+// A signal may come just before poll() begins; so often its flag is looked at anyway.
+constexpr milliseconds kStopInterval{200};
+
+/// A StepServer with a clock and a transport around it.
+class Host {
+ public:
+  Host(Participant& participant, Transport& transport, const ServeOptions& options)
+      : name_(participant.name()),
+        transport_(transport),
+        options_(options),
+        server_(participant, options.config_digest, drawSessionId()) {}
+
+  ServeReport serve() {
+    say("waiting on " + transport_.describe());
+    for (;;) {
+      listen();
+      if (options_.stop != nullptr && options_.stop->load()) {
+        sayFarewell();
+        return report(ServeEnd::kInterrupted);
+      }
+      if (!sessionIsOver()) continue;
+      const Session ended = server_.session();
+      if (ended == Session::kNone || ended == Session::kOpen) masterIsSilent();
+      if (ended == Session::kAborted) say("the controller gave up");
+      if (!options_.keep_serving) {
+        return report(ended == Session::kAborted ? ServeEnd::kAborted : ServeEnd::kFinished);
+      }
+      server_.drop();
+      last_heard_ = WallClock::now();
+    }
+  }
+
+ private:
+  using Session = StepServer::Session;
+
+  // Waits for one message and answers it.
+  void listen() {
+    if (!transport_.receive(request_, kStopInterval)) return;
+    const std::int64_t served = server_.served();
+    const std::int64_t resent = server_.resent();
+    const Bytes* reply = server_.receive(request_.data(), request_.size());
+    if (reply != nullptr) transport_.send(reply->data(), reply->size());
+    // Traffic of other runs is no sign of life of this one's master.
+    if (server_.served() + server_.resent() > served + resent) last_heard_ = WallClock::now();
+    if (server_.served() > served && !server_.lastError().empty()) say(server_.lastError());
+  }
+
+  bool sessionIsOver() const {
+    if (server_.session() == Session::kReleased) return true;
+    const milliseconds limit = patience();
+    return limit > milliseconds{0} && WallClock::now() - last_heard_ >= limit;
+  }
+
+  // Zero: for ever.
+  milliseconds patience() const {
+    switch (server_.session()) {
+      case Session::kNone:
+        return server_.served() > 0 ? milliseconds{0} : options_.first_contact;
+      case Session::kOpen:
+        return options_.idle_timeout;
+      case Session::kAborted:
+        return std::min(options_.linger, kStopInterval);
+      default:
+        return options_.linger;
+    }
+  }
+
+  void masterIsSilent() {
+    const std::string text = fmt::format(
+        "no request from the controller for {} ms, at {}, on {}. Is it running, and on the same "
+        "LCM "
+        "URL? Try: ballbot doctor",
+        patience().count(), toText(server_.time()), transport_.describe());
+    if (!options_.keep_serving) throw LostParticipantError("controller", name_ + ": " + text);
+    say(text);
+  }
+
+  // The master waits for a reply; better that it hears why none will come.
+  void sayFarewell() {
+    if (server_.session() != Session::kOpen) return;
+    server_.withdraw(name_ + " was stopped by a signal");
+    const std::int64_t served = server_.served();
+    const WallClock::time_point until = WallClock::now() + kStopInterval;
+    while (server_.served() == served && WallClock::now() < until) listen();
+  }
+
+  void say(const std::string& text) const {
+    if (options_.say) options_.say(name_ + ": " + text);
+  }
+  ServeReport report(ServeEnd end) const { return {end, server_.served(), server_.ignored()}; }
+
+  const std::string name_;
+  Transport& transport_;
+  const ServeOptions& options_;
+  StepServer server_;
+  WallClock::time_point last_heard_ = WallClock::now();
+  Bytes request_;
+};
+
+}  // namespace
+
+ServeReport serve(Participant& participant, Transport& transport, const ServeOptions& options) {
+  return Host(participant, transport, options).serve();
+}
+
+std::optional<std::string> whoServes(Transport& master_end, WallDuration wait) {
+  ballbot_msgs::step_request probe{};
+  probe.header.protocol_version = kProtocolVersion;
+  probe.header.session = static_cast<std::int64_t>(drawSessionId());
+  probe.header.sequence = 1;
+  probe.header.kind = ballbot_msgs::step_header::PROBE;
+  Bytes bytes;
+  encodeMessage(probe, bytes);
+  master_end.send(bytes.data(), bytes.size());
+
+  const WallClock::time_point until = WallClock::now() + wait;
+  ballbot_msgs::step_reply reply{};
+  for (WallDuration left = wait; left > WallDuration{}; left = until - WallClock::now()) {
+    if (!master_end.receive(bytes, left)) break;
+    if (!decodeMessage(bytes.data(), bytes.size(), reply)) continue;
+    if (reply.header.session == probe.header.session) return reply.text;
+  }
+  return std::nullopt;
+}
+
+}  // namespace ballbot
