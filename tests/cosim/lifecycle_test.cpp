@@ -49,27 +49,36 @@ TEST(Lifecycle, AllowsExactlyTheCallsOfFmi3) {
     std::map<S, S> allowed;  // state before, state after
   };
   const Row rows[] = {
-      {"enterInitializationMode", [](Lifecycle& l) { l.enterInitializationMode(kSimStart); },
+      {"enterInitializationMode",
+       [](Lifecycle& l) { l.enterInitializationMode(kSimStart); },
        {{S::kInstantiated, S::kInitialization}}},
-      {"exitInitializationMode", [](Lifecycle& l) { l.exitInitializationMode(); },
+      {"exitInitializationMode",
+       [](Lifecycle& l) { l.exitInitializationMode(); },
        {{S::kInitialization, S::kStep}}},
-      {"doStep", [](Lifecycle& l) { l.doStep(kSimStart, kStepLength, {}); }, {{S::kStep, S::kStep}}},
+      {"doStep",
+       [](Lifecycle& l) { l.doStep(kSimStart, kStepLength, {}); },
+       {{S::kStep, S::kStep}}},
       {"terminate", [](Lifecycle& l) { l.terminate(); }, {{S::kStep, S::kTerminated}}},
-      {"reset", [](Lifecycle& l) { l.reset(); },
+      {"reset",
+       [](Lifecycle& l) { l.reset(); },
        {{S::kInstantiated, S::kInstantiated},
         {S::kInitialization, S::kInstantiated},
         {S::kStep, S::kInstantiated},
         {S::kTerminated, S::kInstantiated},
         {S::kFailed, S::kInstantiated}}},
-      {"reading", [](Lifecycle& l) { (void)l.sensors(); },
+      {"reading",
+       [](Lifecycle& l) { (void)l.sensors(); },
        {{S::kStep, S::kStep}, {S::kTerminated, S::kTerminated}}},
-      {"reading", [](Lifecycle& l) { (void)l.truth(); },
+      {"reading",
+       [](Lifecycle& l) { (void)l.truth(); },
        {{S::kStep, S::kStep}, {S::kTerminated, S::kTerminated}}},
-      {"saveState", [](Lifecycle& l) { (void)l.saveState(); },
+      {"saveState",
+       [](Lifecycle& l) { (void)l.saveState(); },
        {{S::kInitialization, S::kInitialization},
         {S::kStep, S::kStep},
         {S::kTerminated, S::kTerminated}}},
-      {"restoreState", [&](Lifecycle& l) { l.restoreState(saved); },
+      {"restoreState",
+       [&](Lifecycle& l) { l.restoreState(saved); },
        {{S::kInitialization, S::kStep},
         {S::kStep, S::kStep},
         {S::kTerminated, S::kStep},
@@ -92,8 +101,8 @@ TEST(Lifecycle, AllowsExactlyTheCallsOfFmi3) {
       } catch (const CallOrderError& error) {
         EXPECT_EQ(error.state(), toText(before));
         EXPECT_THAT(error.call(), HasSubstr(row.call));
-        EXPECT_THAT(error.what(), HasSubstr(std::string("is not allowed in state '") +
-                                            toText(before) + "'"));
+        EXPECT_THAT(error.what(),
+                    HasSubstr(std::string("is not allowed in state '") + toText(before) + "'"));
         EXPECT_EQ(brought.life.state(), before);
       }
     }

@@ -107,9 +107,8 @@ TEST(RemoteParticipant, SaysWhenAnotherRunIsOnTheChannel) {
   encodeMessage(reply, bytes);
   other->send(bytes.data(), bytes.size());
   RemoteParticipant remote(*master_end, remoteOptions());
-  EXPECT_THAT(
-      wordsOf<LostParticipantError>([&] { remote.enterInitializationMode(kSimStart); }),
-      HasSubstr("1 messages of another run came instead: is the channel in use twice?"));
+  EXPECT_THAT(wordsOf<LostParticipantError>([&] { remote.enterInitializationMode(kSimStart); }),
+              HasSubstr("1 messages of another run came instead: is the channel in use twice?"));
 }
 
 TEST(RemoteParticipant, ADeadProcessIsReportedAtOnce) {
@@ -268,7 +267,8 @@ TEST(RetransmissionTimer, FollowsTheRoundTripAndBacksOff) {
   for (int i = 0; i < 100; ++i) timer.measured(milliseconds{10});
   EXPECT_GE(timer.wait(0), milliseconds{10});
   EXPECT_LE(timer.wait(0), milliseconds{12});
-  EXPECT_EQ(timer.wait(1), 2 * timer.wait(0));
+  EXPECT_EQ(timer.wait(1), timer.wait(0));
+  EXPECT_EQ(timer.wait(2), 2 * timer.wait(0));
   EXPECT_EQ(timer.wait(30), RetransmissionTimer::kLongest);
   for (int i = 0; i < 100; ++i) timer.measured(std::chrono::microseconds{20});
   EXPECT_EQ(timer.wait(0), RetransmissionTimer::kShortest);

@@ -61,9 +61,8 @@ TEST(EventCalendar, APeriodThatDoesNotFitIsRefusedWithTheNearest) {
   EXPECT_EQ(wordsOf<InputError>([&] { calendar.addTask("imu", us(3300)); }),
             "imu period 3.3 ms is not a whole multiple of the base step 500 us. Nearest: 3 ms, 3.5 "
             "ms");
-  EXPECT_EQ(wordsOf<InputError>([&] {
-              calendar.addTask("imu", us(3300), {}, "push.yaml:9:3: imu.period_ms");
-            }),
+  EXPECT_EQ(wordsOf<InputError>(
+                [&] { calendar.addTask("imu", us(3300), {}, "push.yaml:9:3: imu.period_ms"); }),
             "push.yaml:9:3: imu.period_ms 3.3 ms is not a whole multiple of the base step 500 us. "
             "Nearest: 3 ms, 3.5 ms");
   EXPECT_THAT(wordsOf<InputError>([&] { calendar.addTask("imu", us(100)); }),

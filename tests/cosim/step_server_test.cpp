@@ -251,8 +251,8 @@ TEST_F(StepServerTest, AbortEndsTheSessionEvenWhenRequestsWereLost) {
 TEST_F(StepServerTest, AProbeIsAnsweredAtAnyTimeAndChangesNothing) {
   ask(client.hello(kSimStart));
   StepClient other(4444, kConfig);
-  const Bytes probe = changed(other.hello(kSimStart),
-                              [](auto& request) { request.header.kind = Header::PROBE; });
+  const Bytes probe =
+      changed(other.hello(kSimStart), [](auto& request) { request.header.kind = Header::PROBE; });
   const Reply reply = ask(probe);
   EXPECT_EQ(reply.header.session, 4444);
   EXPECT_EQ(reply.text, "spring");
