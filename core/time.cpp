@@ -21,8 +21,8 @@ std::string toText(SimDuration d) {
   if (ns == 0) return "0 s";
   if (ns % 1000 != 0) return fmt::format("{} ns", ns);
   if (ns % 1'000'000 != 0 && std::abs(ns) < 1'000'000) return fmt::format("{} us", ns / 1000);
-  if (std::abs(ns) < 1'000'000'000) return fmt::format("{} ms", static_cast<double>(ns) * 1e-6);
-  return fmt::format("{} s", static_cast<double>(ns) * 1e-9);
+  if (std::abs(ns) < 1'000'000'000) return fmt::format("{} ms", static_cast<double>(ns) / 1e6);
+  return fmt::format("{} s", static_cast<double>(ns) / 1e9);
 }
 
 std::string toText(SimTime t) { return fmt::format("{:.6f} s", toSeconds(t)); }

@@ -17,7 +17,7 @@ struct DisturbanceOptions {
   double loss = 0;
   double duplication = 0;
   double reordering = 0;                           ///< held back so that later ones overtake it
-  std::chrono::microseconds reorder_delay{3'000};  ///< how long it is held back
+  std::chrono::microseconds reorder_delay{500};  ///< how long it is held back
   std::chrono::microseconds delay{0};              ///< of every message, at least
   std::chrono::microseconds jitter{0};             ///< more delay, uniform from 0 to this
 

@@ -7,7 +7,7 @@ namespace ballbot {
 WallDuration RetransmissionTimer::wait(int tries) const {
   const WallDuration base =
       std::clamp<WallDuration>(smoothed_ + 4 * deviation_, kShortest, kLongest);
-  return std::min<WallDuration>(kLongest, base * (1 << std::min(tries, 10)));
+  return std::min<WallDuration>(kLongest, base * (1 << std::clamp(tries - 1, 0, 10)));
 }
 
 void RetransmissionTimer::measured(WallDuration round_trip) {

@@ -1,0 +1,47 @@
+#include "tests/cosim/support/spring_controller.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "messages/convert.hpp"
+
+namespace ballbot::testing_support {
+
+void SpringController::onSensors(SimTime now, const SensorFrame& sensors, DueTasks due,
+                                 ControlOutput& out) noexcept {
+  ++calls_;
+  if (due.has(planner_)) {
+    target_ = 0.9 * target_ + 0.1 * std::sin(3.0 * toSeconds(now)) + 0.01 * sensors.joint_angle[0];
+    ++plans_;
+    out.has_plan = true;
+    out.plan = {};
+    out.plan.sim_time_ns = toNs(now);
+    out.plan.cost = target_;
+    out.plan.iterations = static_cast<std::int32_t>(plans_);
+    StateVector x = StateVector::Zero();
+    x.head<6>() = sensors.joint_angle;
+    toMessage(now, x, Eigen::Matrix<double, 10, 1>::Ones(), true, out.estimate);
+    out.has_estimate = true;
+  }
+  if (due.has(tracker_)) {
+    out.command.torque =
+        5.0 * (JointVector::Constant(target_) - sensors.joint_angle) - 0.3 * sensors.joint_velocity;
+    if (now >= nan_from_) out.command.torque[2] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+StateBlob SpringController::saveState() const {
+  BlobWriter out;
+  out.put(target_);
+  out.put(plans_);
+  return out.seal("spring_controller", 1);
+}
+
+void SpringController::restoreState(const StateBlob& blob) {
+  BlobReader in(blob, "spring_controller", 1);
+  target_ = in.get<double>();
+  plans_ = in.get<std::int64_t>();
+  in.finish();
+}
+
+}  // namespace ballbot::testing_support

@@ -1,0 +1,138 @@
+#include "messages/convert.hpp"
+
+#include <cstring>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "messages/wire.hpp"
+
+namespace ballbot {
+namespace {
+
+// Values whose bits are easily lost on the way: smallest, largest, negative zero.
+double awkward(int i) {
+  constexpr double kValues[] = {-0.0, std::numeric_limits<double>::denorm_min(),
+                                std::numeric_limits<double>::max(), 0.1, -1.0 / 3.0};
+  return kValues[i % 5] + (i % 5 == 3 ? i : 0);
+}
+
+template <typename Vector>
+void fill(Vector& v, int& i) {
+  for (Eigen::Index k = 0; k < v.size(); ++k) v[k] = awkward(i++);
+}
+
+template <typename Vector>
+bool sameBits(const Vector& a, const Vector& b) {
+  return std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
+}
+
+template <typename Message>
+Message overTheWire(const Message& message) {
+  Bytes bytes;
+  encodeMessage(message, bytes);
+  Message back{};
+  EXPECT_TRUE(decodeMessage(bytes.data(), bytes.size(), back));
+  return back;
+}
+
+TEST(Convert, ASensorFrameKeepsEveryBit) {
+  SensorFrame frame;
+  int i = 0;
+  fill(frame.motor_angle, i);
+  fill(frame.joint_angle, i);
+  fill(frame.joint_velocity, i);
+  fill(frame.joint_torque, i);
+  fill(frame.accel_B, i);
+  fill(frame.gyro_WB_B, i);
+  frame.time = simTimeFromNs(1'234'567'891);
+  frame.imu_count = 7;
+  frame.imu_time = simTimeFromNs(-5);
+
+  ballbot_msgs::sensor_frame message{};
+  toMessage(frame, 42, message);
+  EXPECT_EQ(message.tick, 42);
+  SensorFrame back;
+  fromMessage(overTheWire(message), back);
+  EXPECT_EQ(back.time, frame.time);
+  EXPECT_EQ(back.imu_count, 7);
+  EXPECT_EQ(back.imu_time, frame.imu_time);
+  EXPECT_TRUE(sameBits(back.motor_angle, frame.motor_angle));
+  EXPECT_TRUE(sameBits(back.joint_angle, frame.joint_angle));
+  EXPECT_TRUE(sameBits(back.joint_velocity, frame.joint_velocity));
+  EXPECT_TRUE(sameBits(back.joint_torque, frame.joint_torque));
+  EXPECT_TRUE(sameBits(back.accel_B, frame.accel_B));
+  EXPECT_TRUE(sameBits(back.gyro_WB_B, frame.gyro_WB_B));
+}
+
+TEST(Convert, AnActuatorCommandKeepsEveryBit) {
+  ActuatorCommand command;
+  int i = 1;
+  fill(command.torque, i);
+  fill(command.position, i);
+  fill(command.velocity, i);
+  fill(command.stiffness, i);
+  fill(command.damping, i);
+
+  ballbot_msgs::actuator_command message{};
+  toMessage(command, 3, simTimeFromNs(400'000), message);
+  EXPECT_EQ(message.sim_time_ns, 400'000);
+  ActuatorCommand back;
+  fromMessage(overTheWire(message), back);
+  EXPECT_TRUE(sameBits(back.torque, command.torque));
+  EXPECT_TRUE(sameBits(back.position, command.position));
+  EXPECT_TRUE(sameBits(back.velocity, command.velocity));
+  EXPECT_TRUE(sameBits(back.stiffness, command.stiffness));
+  EXPECT_TRUE(sameBits(back.damping, command.damping));
+}
+
+TEST(Convert, ATruthFrameKeepsEveryBit) {
+  TruthFrame truth;
+  int i = 2;
+  fill(truth.state, i);
+  fill(truth.joint_angle, i);
+  fill(truth.joint_velocity, i);
+  fill(truth.motor_angle, i);
+  fill(truth.joint_torque, i);
+  fill(truth.p_WE, i);
+  fill(truth.quat_WE, i);
+  fill(truth.external_force_W, i);
+  fill(truth.contact_force_W, i);
+  truth.time = simTimeFromNs(99);
+
+  ballbot_msgs::truth_frame message{};
+  toMessage(truth, 5, message);
+  EXPECT_EQ(message.q[kPitch], truth.state[kPitch]);
+  EXPECT_EQ(message.nu[kOmegaY], truth.state[kPositionDim + kOmegaY]);
+  TruthFrame back;
+  fromMessage(overTheWire(message), back);
+  EXPECT_EQ(back.time, truth.time);
+  EXPECT_TRUE(sameBits(back.state, truth.state));
+  EXPECT_TRUE(sameBits(back.joint_angle, truth.joint_angle));
+  EXPECT_TRUE(sameBits(back.joint_velocity, truth.joint_velocity));
+  EXPECT_TRUE(sameBits(back.motor_angle, truth.motor_angle));
+  EXPECT_TRUE(sameBits(back.joint_torque, truth.joint_torque));
+  EXPECT_TRUE(sameBits(back.p_WE, truth.p_WE));
+  EXPECT_TRUE(sameBits(back.quat_WE, truth.quat_WE));
+  EXPECT_TRUE(sameBits(back.external_force_W, truth.external_force_W));
+  EXPECT_TRUE(sameBits(back.contact_force_W, truth.contact_force_W));
+}
+
+TEST(Convert, AnEstimateKeepsStateAndDeviation) {
+  StateVector x;
+  Eigen::Matrix<double, 10, 1> sigma;
+  int i = 3;
+  fill(x, i);
+  fill(sigma, i);
+  ballbot_msgs::state_estimate message{};
+  toMessage(simTimeFromNs(2'500'000), x, sigma, true, message);
+  const ballbot_msgs::state_estimate back = overTheWire(message);
+  EXPECT_EQ(back.sim_time_ns, 2'500'000);
+  EXPECT_TRUE(back.aligned);
+  EXPECT_TRUE(sameBits(stateOf(back), x));
+  EXPECT_EQ(std::memcmp(back.sigma, sigma.data(), sizeof back.sigma), 0);
+}
+
+}  // namespace
+}  // namespace ballbot
