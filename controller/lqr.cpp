@@ -56,7 +56,8 @@ FeedbackGain gainAtYaw(const FeedbackGain& K, double yaw) {
   to_heading << std::cos(yaw), std::sin(yaw), -std::sin(yaw), std::cos(yaw);
   FeedbackGain turned = K;
   turned.middleCols<2>(kBallX) = K.middleCols<2>(kBallX) * to_heading;
-  turned.middleCols<2>(kPositionDim + kBallVx) = K.middleCols<2>(kPositionDim + kBallVx) * to_heading;
+  turned.middleCols<2>(kPositionDim + kBallVx) =
+      K.middleCols<2>(kPositionDim + kBallVx) * to_heading;
   return turned;
 }
 

@@ -11,17 +11,17 @@ class ConfigReader;
 /// of coordinate: Q and R are diagonal. Wheels and arm have weights of their own because their
 /// drives carry different loads.
 struct LqrWeights {
-  double ball_position = 20;        ///< px, py [1/m^2]
-  double yaw = 10;                  ///< [1/rad^2]
-  double tilt = 0;                  ///< pitch, roll [1/rad^2]
-  double arm_position = 50;         ///< [1/rad^2]
-  double ball_velocity = 10;        ///< [s^2/m^2]
-  double base_rate = 4;             ///< w_WB_B [s^2/rad^2]
-  double arm_rate = 0.5;            ///< [s^2/rad^2]
-  double wheel_torque = 2;          ///< [1/(N m)^2]
-  double arm_torque = 0.5;          ///< [1/(N m)^2]
+  double ball_position = 20;  ///< px, py [1/m^2]
+  double yaw = 10;            ///< [1/rad^2]
+  double tilt = 0;            ///< pitch, roll [1/rad^2]
+  double arm_position = 50;   ///< [1/rad^2]
+  double ball_velocity = 10;  ///< [s^2/m^2]
+  double base_rate = 4;       ///< w_WB_B [s^2/rad^2]
+  double arm_rate = 0.5;      ///< [s^2/rad^2]
+  double wheel_torque = 2;    ///< [1/(N m)^2]
+  double arm_torque = 0.5;    ///< [1/(N m)^2]
 
-  StateJacobian stateWeight() const;                          ///< Q
+  StateJacobian stateWeight() const;                           ///< Q
   Eigen::Matrix<double, kJointCount, 1> torqueWeight() const;  ///< diagonal of R
 
   /// @throw InputError as ConfigReader; torque weights must be more than 0.

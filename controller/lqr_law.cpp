@@ -51,8 +51,8 @@ LqrLaw::Plan LqrLaw::planFor(SimTime now, const StateVector& x,
   p.x = solution_.equilibrium.x;
   const Eigen::Vector2d error = config_.set_point.ball_position - x.segment<2>(kBallX);
   const double distance = error.norm();
-  const double cut = distance > config_.position_error_limit
-                         ? config_.position_error_limit / distance : 1.0;
+  const double cut =
+      distance > config_.position_error_limit ? config_.position_error_limit / distance : 1.0;
   p.x.segment<2>(kBallX) = x.segment<2>(kBallX) + cut * error;
   p.x[kYaw] = x[kYaw] + std::clamp(config_.set_point.yaw - x[kYaw], -config_.yaw_error_limit,
                                    config_.yaw_error_limit);

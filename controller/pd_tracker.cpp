@@ -15,14 +15,16 @@ JointVector wheelsAndArm(double wheels, double arm) {
 
 TrackerConfig TrackerConfig::read(ConfigReader& in, const RobotParameters& robot) {
   TrackerConfig c;
-  c.pd_loop = in.choiceOr<PdLoop>("pd_loop", PdLoop::kController,
-                                  {{"controller", PdLoop::kController}, {"drives", PdLoop::kDrives}});
+  c.pd_loop =
+      in.choiceOr<PdLoop>("pd_loop", PdLoop::kController,
+                          {{"controller", PdLoop::kController}, {"drives", PdLoop::kDrives}});
   c.stiffness = wheelsAndArm(in.numberOr("wheel_stiffness_Nm_per_rad", 0.2, {0, 1000}),
                              in.numberOr("arm_stiffness_Nm_per_rad", 8, {0, 1000}));
   c.damping = wheelsAndArm(in.numberOr("wheel_damping_Nms_per_rad", 0.02, {0, 100}),
                            in.numberOr("arm_damping_Nms_per_rad", 0.6, {0, 100}));
   c.torque_limit = wheelsAndArm(
-      in.numberOr("wheel_torque_limit_Nm", robot.wheel_torque_limit, {kTiny, robot.wheel_torque_limit}),
+      in.numberOr("wheel_torque_limit_Nm", robot.wheel_torque_limit,
+                  {kTiny, robot.wheel_torque_limit}),
       in.numberOr("arm_torque_limit_Nm", robot.arm_torque_limit, {kTiny, robot.arm_torque_limit}));
   c.policy_feedback = in.numberOr("policy_feedback", c.policy_feedback, {0, 1});
   in.finish();
@@ -32,9 +34,8 @@ TrackerConfig TrackerConfig::read(ConfigReader& in, const RobotParameters& robot
 TrackStatus PdTracker::step(const PolicySample& policy, const StateVector& x,
                             const JointVector& joint_angle, const JointVector& joint_velocity,
                             ActuatorCommand& command) const noexcept {
-  const JointVector pd =
-      config_.stiffness.cwiseProduct(policy.joint_position - joint_angle) +
-      config_.damping.cwiseProduct(policy.joint_velocity - joint_velocity);
+  const JointVector pd = config_.stiffness.cwiseProduct(policy.joint_position - joint_angle) +
+                         config_.damping.cwiseProduct(policy.joint_velocity - joint_velocity);
   const StateVector error = x - policy.x;
   const JointVector policy_torque =
       policy.torque + config_.policy_feedback * (policy.feedback * error);

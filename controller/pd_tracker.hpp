@@ -39,8 +39,7 @@ class PdTracker {
   /// @param joint_angle  measured, wheels relative to the base [rad]
   /// @param joint_velocity  measured [rad/s]
   [[nodiscard]] TrackStatus step(const PolicySample& policy, const StateVector& x,
-                                 const JointVector& joint_angle,
-                                 const JointVector& joint_velocity,
+                                 const JointVector& joint_angle, const JointVector& joint_velocity,
                                  ActuatorCommand& command) const noexcept;
 
  private:

@@ -70,7 +70,8 @@ void solveFromTheRight(const double* L, const double* inverse_diagonal, double* 
     Tile<kRows4, 1> column;
     column.load(X + j * kX, kX);
     column.subtractProduct(X, kX, L + j, kU, 0, j);
-    for (int i = 0; i < kRows4; ++i) store4(X + j * kX + 4 * i, column.sum[0][i] * inverse_diagonal[j]);
+    for (int i = 0; i < kRows4; ++i)
+      store4(X + j * kX + 4 * i, column.sum[0][i] * inverse_diagonal[j]);
   }
 }
 
@@ -82,7 +83,8 @@ void gainFrom(const double* Yt, const double* L, const double* inverse_diagonal,
     Tile<kRows4, 1> column;
     column.load(Yt + j * kX, kX);
     column.addProduct(Kt + (j + 1) * kX, kX, L + j * kU + j + 1, 1, 0, NU - 1 - j);
-    for (int i = 0; i < kRows4; ++i) store4(Kt + j * kX + 4 * i, -column.sum[0][i] * inverse_diagonal[j]);
+    for (int i = 0; i < kRows4; ++i)
+      store4(Kt + j * kX + 4 * i, -column.sum[0][i] * inverse_diagonal[j]);
   }
 }
 
@@ -156,9 +158,9 @@ bool riccatiStep(const LqStage<NX, NU>& stage, double shift, ValueFunction<NX>& 
   return true;
 }
 
-#define BALLBOT_INSTANTIATE(NX, NU)                                                       \
-  template struct LqStage<NX, NU>;                                                        \
-  template bool riccatiStep<NX, NU>(const LqStage<NX, NU>&, double, ValueFunction<NX>&,   \
+#define BALLBOT_INSTANTIATE(NX, NU)                                                     \
+  template struct LqStage<NX, NU>;                                                      \
+  template bool riccatiStep<NX, NU>(const LqStage<NX, NU>&, double, ValueFunction<NX>&, \
                                     StageGain<NX, NU>&) noexcept;
 template struct ValueFunction<4>;
 template struct ValueFunction<19>;

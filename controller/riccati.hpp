@@ -56,7 +56,9 @@ struct StageGain {
   using StepMap = Eigen::Map<Eigen::Matrix<double, NU, 1>>;
   auto K() { return GainMap(Kk); }
   auto k() { return StepMap(Kk + NX * kU); }
-  auto K() const { return Eigen::Map<const Eigen::Matrix<double, NU, NX>, 0, Eigen::OuterStride<kU>>(Kk); }
+  auto K() const {
+    return Eigen::Map<const Eigen::Matrix<double, NU, NX>, 0, Eigen::OuterStride<kU>>(Kk);
+  }
   auto k() const { return Eigen::Map<const Eigen::Matrix<double, NU, 1>>(Kk + NX * kU); }
 
   alignas(32) double Kk[kU * kX] = {};  ///< [K k 0]
@@ -86,7 +88,7 @@ struct ValueFunction {
 ///
 /// @return false if H is not positive definite or not finite; value and gain are then of no use.
 template <int NX, int NU>
-[[nodiscard]] bool riccatiStep(const LqStage<NX, NU>& stage, double shift,
-                               ValueFunction<NX>& value, StageGain<NX, NU>& gain) noexcept;
+[[nodiscard]] bool riccatiStep(const LqStage<NX, NU>& stage, double shift, ValueFunction<NX>& value,
+                               StageGain<NX, NU>& gain) noexcept;
 
 }  // namespace ballbot

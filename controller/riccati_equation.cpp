@@ -57,8 +57,8 @@ Eigen::Matrix<double, N, N> solveContinuousRiccati(const Eigen::Matrix<double, N
 
   for (int k = 0; k < kMaxDoublings; ++k) {
     const Eigen::PartialPivLU<Matrix> I_plus_GX(identity + Gk * X);
-    const Matrix V = I_plus_GX.solve(Ak);                           // (1 + G X)^-1 A
-    const Matrix GVt = I_plus_GX.solve(Gk);                         // (1 + G X)^-1 G
+    const Matrix V = I_plus_GX.solve(Ak);    // (1 + G X)^-1 A
+    const Matrix GVt = I_plus_GX.solve(Gk);  // (1 + G X)^-1 G
     const Matrix step = Ak.transpose() * X * V;
     Gk += Ak * GVt * Ak.transpose();
     Gk = (0.5 * (Gk + Gk.transpose())).eval();
@@ -74,17 +74,18 @@ Eigen::Matrix<double, N, N> solveContinuousRiccati(const Eigen::Matrix<double, N
   if (!(residual < kResidualLimit)) {
     throw NumericalError(fmt::format(
         "Riccati equation has no usable solution (relative residual {:.1e}): the inputs must reach "
-        "every unstable mode, and the weights must see it", residual));
+        "every unstable mode, and the weights must see it",
+        residual));
   }
   return X;
 }
 
-#define BALLBOT_INSTANTIATE(N)                                                                    \
-  template Eigen::Matrix<double, N, N> solveContinuousRiccati<N>(                                 \
-      const Eigen::Matrix<double, N, N>&, const Eigen::Matrix<double, N, N>&,                     \
-      const Eigen::Matrix<double, N, N>&);                                                        \
-  template double continuousRiccatiResidual<N>(                                                   \
-      const Eigen::Matrix<double, N, N>&, const Eigen::Matrix<double, N, N>&,                     \
+#define BALLBOT_INSTANTIATE(N)                                                \
+  template Eigen::Matrix<double, N, N> solveContinuousRiccati<N>(             \
+      const Eigen::Matrix<double, N, N>&, const Eigen::Matrix<double, N, N>&, \
+      const Eigen::Matrix<double, N, N>&);                                    \
+  template double continuousRiccatiResidual<N>(                               \
+      const Eigen::Matrix<double, N, N>&, const Eigen::Matrix<double, N, N>&, \
       const Eigen::Matrix<double, N, N>&, const Eigen::Matrix<double, N, N>&);
 BALLBOT_INSTANTIATE(2)
 BALLBOT_INSTANTIATE(kStateDim)

@@ -19,8 +19,8 @@ SetPoint SetPoint::read(ConfigReader& in, const RobotParameters& robot) {
     const ArmLink& link = robot.arm[i];
     if (out.arm[i] < link.lower_limit || out.arm[i] > link.upper_limit) {
       throw InputError(fmt::format("{} puts joint {} ('{}') at {} rad, must be between {} and {}",
-                                   in.at("arm_rad"), i + 1, link.name, out.arm[i],
-                                   link.lower_limit, link.upper_limit));
+                                   in.at("arm_rad"), i + 1, link.name, out.arm[i], link.lower_limit,
+                                   link.upper_limit));
     }
   }
   in.finish();

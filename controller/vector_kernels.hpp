@@ -2,7 +2,8 @@
 
 // Register-blocked products of small column-major matrices whose row counts are multiples of four.
 // Four doubles fill one AVX2 register; on other machines the compiler splits them. The order of
-// every sum is fixed by the source, so results do not depend on alignment or on the machine's width.
+// every sum is fixed by the source, so results do not depend on alignment or on the machine's
+// width.
 
 namespace ballbot {
 
@@ -32,7 +33,8 @@ struct Tile {
       for (int i = 0; i < kRows4; ++i) store4(C + j * ldc + 4 * i, sum[j][i]);
   }
 
-  /// += A B over `depth` columns of A (stride lda); B(k, j) lies at B[k * row_stride + j * column_stride].
+  /// += A B over `depth` columns of A (stride lda); B(k, j) lies at B[k * row_stride + j *
+  /// column_stride].
   void addProduct(const double* A, int lda, const double* B, int row_stride, int column_stride,
                   int depth) {
     for (int k = 0; k < depth; ++k) {
@@ -44,8 +46,8 @@ struct Tile {
       }
     }
   }
-  void subtractProduct(const double* A, int lda, const double* B, int row_stride,
-                       int column_stride, int depth) {
+  void subtractProduct(const double* A, int lda, const double* B, int row_stride, int column_stride,
+                       int depth) {
     for (int k = 0; k < depth; ++k) {
       Vec4 a[kRows4];
       for (int i = 0; i < kRows4; ++i) a[i] = load4(A + k * lda + 4 * i);

@@ -26,7 +26,8 @@ Eigen::Matrix<double, N, N> fromHamiltonian(const Eigen::Matrix<double, N, N>& A
   Eigen::Matrix<std::complex<double>, 2 * N, N> stable;
   int found = 0;
   for (int i = 0; i < 2 * N; ++i) {
-    if (eigen.eigenvalues()[i].real() < 0 && found < N) stable.col(found++) = eigen.eigenvectors().col(i);
+    if (eigen.eigenvalues()[i].real() < 0 && found < N)
+      stable.col(found++) = eigen.eigenvectors().col(i);
   }
   EXPECT_EQ(found, N);
   return (stable.template bottomRows<N>() * stable.template topRows<N>().inverse()).real();
