@@ -5,12 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/config_reader.hpp"
 #include "core/digest.hpp"
 #include "core/error.hpp"
-#include "model/robot_reader.hpp"
-#include "plant/plant_config.hpp"
-#include "plant/plant_participant.hpp"
 
 namespace ballbot {
 

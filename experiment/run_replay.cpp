@@ -12,6 +12,14 @@ ReplayPose pose(const Vector3& p_W, const Eigen::Quaterniond& q) {
   return {{p_W.x(), p_W.y(), p_W.z()}, {q.w(), q.x(), q.y(), q.z()}};
 }
 
+/// Where the push that acts at `t` acts on the base, in B; pushes on other bodies are drawn there too.
+Vector3 pushPoint(const std::vector<Push>& pushes, SimTime t) {
+  for (const Push& push : pushes) {
+    if (push.activeAt(t)) return push.p_BP_B;
+  }
+  return Vector3::Zero();
+}
+
 }  // namespace
 
 ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot,
@@ -43,8 +51,8 @@ ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot,
     for (std::size_t j = 0; j < replay.joints.size(); ++j) replay.joints[j].angle.push_back(m.joint_angle[j]);
     hand.poses.push_back({{m.p_WE[0], m.p_WE[1], m.p_WE[2]},
                           {m.quat_WE[0], m.quat_WE[1], m.quat_WE[2], m.quat_WE[3]}});
-    const Vector3 mast = p_WK + R_WB * Vector3(0, 0, 0.35);
-    push.point_W.push_back({mast.x(), mast.y(), mast.z()});
+    const Vector3 p_WP = p_WK + R_WB * pushPoint(pushes, simTimeFromNs(m.sim_time_ns));
+    push.point_W.push_back({p_WP.x(), p_WP.y(), p_WP.z()});
     push.force_W.push_back({m.external_force_W[0], m.external_force_W[1], m.external_force_W[2]});
     contact.point_W.push_back(hand.poses.back().p_W);
     contact.force_W.push_back({m.contact_force_W[0], m.contact_force_W[1], m.contact_force_W[2]});

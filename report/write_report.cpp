@@ -1,0 +1,80 @@
+#include "report/write_report.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "report/page_template.hpp"
+#include "report/report_check.hpp"
+#include "report/report_json.hpp"
+
+namespace ballbot {
+
+namespace {
+
+std::string htmlEscaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+/// JSON that may stand inside a script element: "</script>" or "<!--" in a text would end it.
+std::string scriptSafe(const nlohmann::ordered_json& json) {
+  constexpr int kNoIndent = -1;
+  const std::string text =
+      json.dump(kNoIndent, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<')
+      out += "\\u003c";
+    else
+      out += c;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string reportPage(const ReportData& data, const std::string& urdf_text,
+                       const ReportSize& size) {
+  checkReportData(data, urdf_text);
+  const std::string& page = pageTemplate();
+  const std::size_t title_at = page.find(kTitleMark);
+  const std::size_t after_title = title_at + std::strlen(kTitleMark);
+  const std::size_t data_at = page.find(kDataMark, after_title);
+  const std::size_t after_data = data_at + std::strlen(kDataMark);
+  const std::string title = (data.passed ? "Passed: " : "Failed: ") + data.title;
+  return page.substr(0, title_at) + htmlEscaped(title) +
+         page.substr(after_title, data_at - after_title) +
+         scriptSafe(reportJson(data, urdf_text, size)) + page.substr(after_data);
+}
+
+void writeReport(const ReportData& data, const std::string& urdf_text, const std::string& path,
+                 const ReportSize& size) {
+  const std::string page = reportPage(data, urdf_text, size);
+  errno = 0;
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << page;
+  file.close();
+  if (!file)
+    throw OutputError(path + ": the report cannot be written: " +
+                      (errno != 0 ? std::strerror(errno) : "unknown reason"));
+}
+
+}  // namespace ballbot

@@ -1,0 +1,37 @@
+// Brings viewer/node_modules to what package-lock.json says. Does nothing, and needs no network,
+// if it is there already.
+import { spawnSync } from 'node:child_process';
+import { existsSync, readFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const folder = dirname(dirname(fileURLToPath(import.meta.url)));
+const npm = process.env.NPM_PROGRAM ?? 'npm';
+
+// npm leaves the lock of what it installed in node_modules; packages for other machines are not in
+// it, so every package of the lock must be installed in its version unless it is optional.
+function isInstalled() {
+  const installedLock = join(folder, 'node_modules', '.package-lock.json');
+  if (!existsSync(installedLock)) return false;
+  const installed = JSON.parse(readFileSync(installedLock, 'utf8')).packages;
+  const wanted = JSON.parse(readFileSync(join(folder, 'package-lock.json'), 'utf8')).packages;
+  return Object.entries(wanted).every(
+    ([path, entry]) => path === '' || entry.optional || installed[path]?.version === entry.version,
+  );
+}
+
+if (!isInstalled()) {
+  const result = spawnSync(npm, ['ci', '--no-audit', '--no-fund', '--loglevel=error'], {
+    cwd: folder,
+    stdio: ['ignore', 2, 2],
+  });
+  if (result.error || result.status !== 0) {
+    console.error(
+      `viewer: the packages of the report page could not be installed ` +
+        `(${result.error?.message ?? `npm ci ended with ${result.status}`}).\n` +
+        `The first build needs the npm registry, directly or through npm's proxy or registry setting. ` +
+        `Try: cd ${folder} && npm ci`,
+    );
+    process.exit(1);
+  }
+}

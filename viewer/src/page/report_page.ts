@@ -1,0 +1,64 @@
+import { decodeGroups, decodeReplay } from '../data/decode';
+import type { ReportJson } from '../data/format';
+import { element } from '../dom';
+import { replayPanel } from '../replay/replay_panel';
+import { onThemeChange, readTheme } from '../theme';
+import { Timeline } from '../time/timeline';
+import { Transport } from '../time/transport';
+import { Figures } from './figures';
+import { header } from './header';
+import { onPrint, paperSceneHeight, paperSharpness, paperWidth } from './printing';
+import { manifest, metricTables, requirementTable } from './tables';
+
+// Width that the plots of a column have [CSS px].
+function plotWidth(column: HTMLElement): number {
+  const figure = column.querySelector('.plot');
+  return Math.floor(figure?.clientWidth ?? column.clientWidth);
+}
+
+// Builds the whole page from its data and keeps its views together.
+export function showReport(report: ReportJson, root: HTMLElement): void {
+  const timeline = new Timeline(report.start, report.end);
+  const figures = new Figures(decodeGroups(report), report.phases, timeline);
+  const transport = new Transport(timeline, report.phases);
+  const replay = report.replay
+    ? replayPanel(decodeReplay(report.replay, report.times), timeline)
+    : null;
+
+  const column = element(
+    'div',
+    { class: 'column' },
+    requirementTable(report.requirements),
+    ...figures.sections,
+    metricTables(report.metrics),
+    manifest(report.manifest, report.documents),
+  );
+  const side = element('aside', { class: 'side' }, replay?.root ?? null, transport.root);
+  const main = element('main', { class: replay ? 'report-main' : 'report-main no-replay' }, side, column);
+  root.append(header(report), main);
+
+  const draw = () => {
+    const theme = readTheme();
+    figures.draw(theme, plotWidth(column));
+    replay?.view?.setTheme(theme);
+  };
+  draw();
+
+  let drawnWidth = plotWidth(column);
+  new ResizeObserver(() => {
+    const width = plotWidth(column);
+    if (width === drawnWidth || document.documentElement.classList.contains('printing')) return;
+    drawnWidth = width;
+    figures.resize(width);
+  }).observe(column);
+  onThemeChange(draw);
+  onPrint(() => {
+    const theme = readTheme();
+    figures.draw(theme, paperWidth, paperSharpness);
+    replay?.view?.setTheme(theme);
+    replay?.view?.drawOnPaper(paperWidth, paperSceneHeight, paperSharpness);
+  }, () => {
+    draw();
+    replay?.view?.drawOnScreen();
+  });
+}
