@@ -8,15 +8,23 @@ import { fileURLToPath } from 'node:url';
 const folder = dirname(dirname(fileURLToPath(import.meta.url)));
 const npm = process.env.NPM_PROGRAM ?? 'npm';
 
+function readJson(...path) {
+  return JSON.parse(readFileSync(join(folder, ...path), 'utf8'));
+}
+
 // npm leaves the lock of what it installed in node_modules; packages for other machines are not in
 // it, so every package of the lock must be installed in its version unless it is optional.
 function isInstalled() {
-  const installedLock = join(folder, 'node_modules', '.package-lock.json');
-  if (!existsSync(installedLock)) return false;
-  const installed = JSON.parse(readFileSync(installedLock, 'utf8')).packages;
-  const wanted = JSON.parse(readFileSync(join(folder, 'package-lock.json'), 'utf8')).packages;
-  return Object.entries(wanted).every(
-    ([path, entry]) => path === '' || entry.optional || installed[path]?.version === entry.version,
+  if (!existsSync(join(folder, 'node_modules', '.package-lock.json'))) return false;
+  const installed = readJson('node_modules', '.package-lock.json').packages;
+  const locked = Object.entries(readJson('package-lock.json').packages).filter(
+    ([path, entry]) => path !== '' && !entry.optional,
+  );
+  const { dependencies, devDependencies } = readJson('package.json');
+  const named = Object.entries({ ...dependencies, ...devDependencies });
+  return (
+    locked.every(([path, entry]) => installed[path]?.version === entry.version) &&
+    named.every(([name, version]) => installed[`node_modules/${name}`]?.version === version)
   );
 }
 

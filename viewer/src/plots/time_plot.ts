@@ -240,6 +240,7 @@ export class TimePlot {
       width: px(stroke.width),
       dash: stroke.dash.map(px),
       points: { show: false },
+      pxAlign: 0, // smooth lines rather than steps from pixel to pixel
     };
   }
 
