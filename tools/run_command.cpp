@@ -96,7 +96,7 @@ void addRunCommand(CLI::App& program, ExitCode& result) {
   command->footer(
       "Examples:\n"
       "  ballbot run configs/scenarios/balance.yaml\n"
-      "  ballbot run configs/scenarios/push.yaml --seed 7 --set plant.actuators=ideal --json\n"
+      "  ballbot run configs/scenarios/push.yaml --seed 7 --set plant.fidelity.actuators=ideal --json\n"
       "  ballbot run configs/scenarios/push.yaml --lcm-url 'udpm://239.255.76.67:7667?ttl=0'\n"
       "Exit codes: 0 passed, 1 a requirement was missed, 2 bad input, 3 a participant was lost,\n"
       "4 output could not be written, 130 interrupted.");

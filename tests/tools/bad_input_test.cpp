@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"UnknownSection", {"--set", "plnat.x=1"}, "unknown key 'plnat'"},
         BadInput{"WrongType", {"--set", "duration_s=long"}, "duration_s is long, must be a number"},
         BadInput{"OutOfRange", {"--set", "duration_s=-1"}, "duration_s is -1, must be between"},
-        BadInput{"WrongChoice", {"--set", "plant.actuators=magic"}, "must be one of: ideal, series_elastic"},
+        BadInput{"WrongChoice", {"--set", "plant.fidelity.actuators=magic"}, "must be one of: ideal, series_elastic"},
         BadInput{"Unschedulable", {"--set", "rates.tracker_period_us=333"}, "Nearest: 300 us, 400 us"},
         BadInput{"UnknownMetric", {"--set", "requirements.beauty.above=3"}, "unknown metric 'beauty'"},
         BadInput{"NoLimit", {"--set", "requirements.largest_tilt_deg={}"}, "has no limit"},
