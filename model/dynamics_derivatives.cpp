@@ -1,5 +1,4 @@
-#include <Eigen/LU>
-
+#include "model/end_effector.hpp"
 #include "model/mass_matrix_inverse.hpp"
 #include "model/newton_euler.hpp"
 #include "model/reduced_dynamics.hpp"
@@ -205,52 +204,69 @@ void ResidualDerivatives::inputs() {
   }
 }
 
+/// dq/dt = T(q) nu and its derivatives.
+void linearizeKinematics(const Pass& pass, const VelocityVector& nu,
+                         ReducedDynamics::Linearization& out) {
+  const double sx = pass.sin_roll, cx = pass.cos_roll, sy = pass.sin_pitch, cy = pass.cos_pitch;
+  const double secant = 1 / cy, tangent = sy * secant;
+  const double yaw_rate = (sx * nu[kOmegaY] + cx * nu[kOmegaZ]) * secant;
+  const double pitch_rate = cx * nu[kOmegaY] - sx * nu[kOmegaZ];
+  out.f.head<kPositionDim>() = nu;
+  out.f[kYaw] = yaw_rate;
+  out.f[kPitch] = pitch_rate;
+  out.f[kRoll] = nu[kOmegaX] + sy * yaw_rate;
+
+  StateJacobian& A = out.df_dx;
+  A(kYaw, kPitch) = yaw_rate * tangent;
+  A(kRoll, kPitch) = yaw_rate * secant;
+  A(kYaw, kRoll) = pitch_rate * secant;
+  A(kPitch, kRoll) = -cy * yaw_rate;
+  A(kRoll, kRoll) = pitch_rate * tangent;
+  for (int i = 0; i < kPositionDim; ++i) {
+    if (i < kYaw || i > kRoll) A(i, kPositionDim + i) = 1;
+  }
+  A(kYaw, kPositionDim + kOmegaY) = sx * secant;
+  A(kYaw, kPositionDim + kOmegaZ) = cx * secant;
+  A(kPitch, kPositionDim + kOmegaY) = cx;
+  A(kPitch, kPositionDim + kOmegaZ) = -sx;
+  A(kRoll, kPositionDim + kOmegaX) = 1;
+  A(kRoll, kPositionDim + kOmegaY) = sx * tangent;
+  A(kRoll, kPositionDim + kOmegaZ) = cx * tangent;
+}
+
+void linearizeAt(const DynamicsConstants& constants, const Pass& pass, const VelocityVector& nu,
+                 const JointVector& tau, const Vec3& lambda_W,
+                 ReducedDynamics::Linearization& out) {
+  const MassMatrix M_inverse = inverseOfPositiveDefinite(pass.massMatrix());
+  const VelocityVector acceleration =
+      M_inverse * (pass.appliedForce(tau, lambda_W) - pass.nonlinearEffects());
+  ResidualDerivatives residual(constants, pass);
+  residual.compute(acceleration, tau, lambda_W);
+  const Columns d = M_inverse * residual.columns;
+
+  out.f.tail<kVelocityDim>() = acceleration;
+  linearizeKinematics(pass, nu, out);
+  out.df_dx.block<kVelocityDim, 3>(kPositionDim, kYaw) = d.middleCols<3>(kEuler);
+  out.df_dx.block<kVelocityDim, 3>(kPositionDim, kArm1) = d.middleCols<3>(kArm);
+  out.df_dx.bottomRightCorner<kVelocityDim, kVelocityDim>() = d.middleCols<kVelocityDim>(kVelocity);
+  out.df_dtau.bottomRows<kVelocityDim>() = d.middleCols<kJointCount>(kTorque);
+  out.df_dlambda.bottomRows<kVelocityDim>() = d.middleCols<3>(kForce);
+}
+
 }  // namespace
 
 void ReducedDynamics::linearize(const StateVector& x, const JointVector& tau,
                                 const Vector3& lambda_W, Linearization& out) const {
-  const PositionVector q = x.head<kPositionDim>();
-  const VelocityVector nu = x.tail<kVelocityDim>();
-  const Pass pass(*constants_, q, nu);
-  const MassMatrix M_inverse = inverseOfPositiveDefinite(pass.massMatrix());
-  const VelocityVector acceleration =
-      M_inverse * (pass.appliedForce(tau, lambda_W) - pass.nonlinearEffects());
+  const Pass pass(*constants_, x.head<kPositionDim>(), x.tail<kVelocityDim>());
+  linearizeAt(*constants_, pass, x.tail<kVelocityDim>(), tau, lambda_W, out);
+}
 
-  ResidualDerivatives residual(*constants_, pass);
-  residual.compute(acceleration, tau, lambda_W);
-  const Columns d = M_inverse * residual.columns;
-  out.df_dx.setZero();
-  out.df_dx.block<kVelocityDim, 3>(kPositionDim, kYaw) = d.middleCols<3>(kEuler);
-  out.df_dx.block<kVelocityDim, 3>(kPositionDim, kArm1) = d.middleCols<3>(kArm);
-  out.df_dx.block<kVelocityDim, kVelocityDim>(kPositionDim, kPositionDim) =
-      d.middleCols<kVelocityDim>(kVelocity);
-  out.df_dtau.setZero();
-  out.df_dtau.bottomRows<kVelocityDim>() = d.middleCols<kJointCount>(kTorque);
-  out.df_dlambda.setZero();
-  out.df_dlambda.bottomRows<kVelocityDim>() = d.middleCols<3>(kForce);
-
-  // The kinematic half: dq = T(q) nu with tan and 1/cos of the pitch.
-  const double sx = pass.sin_roll, cx = pass.cos_roll, sy = pass.sin_pitch, cy = pass.cos_pitch;
-  const double wy = nu[kOmegaY], wz = nu[kOmegaZ];
-  const double yaw_rate = (sx * wy + cx * wz) / cy, pitch_rate = cx * wy - sx * wz;
-  out.f << nu, acceleration;
-  out.f[kYaw] = yaw_rate;
-  out.f[kPitch] = pitch_rate;
-  out.f[kRoll] = nu[kOmegaX] + sy * yaw_rate;
-  StateJacobian& A = out.df_dx;
-  A(kYaw, kPitch) = yaw_rate * sy / cy;
-  A(kRoll, kPitch) = yaw_rate / cy;
-  A(kYaw, kRoll) = pitch_rate / cy;
-  A(kPitch, kRoll) = -cy * yaw_rate;
-  A(kRoll, kRoll) = pitch_rate * sy / cy;
-  for (const int i : {+kBallX, +kBallY, +kArm1, +kArm2, +kArm3}) A(i, kPositionDim + i) = 1;
-  A(kYaw, kPositionDim + kOmegaY) = sx / cy;
-  A(kYaw, kPositionDim + kOmegaZ) = cx / cy;
-  A(kPitch, kPositionDim + kOmegaY) = cx;
-  A(kPitch, kPositionDim + kOmegaZ) = -sx;
-  A(kRoll, kPositionDim + kOmegaX) = 1;
-  A(kRoll, kPositionDim + kOmegaY) = sx * sy / cy;
-  A(kRoll, kPositionDim + kOmegaZ) = cx * sy / cy;
+void ReducedDynamics::linearize(const StateVector& x, const JointVector& tau,
+                                const Vector3& lambda_W, Linearization& out,
+                                EndEffectorLinearization& end_effector) const {
+  const Pass pass(*constants_, x.head<kPositionDim>(), x.tail<kVelocityDim>());
+  linearizeAt(*constants_, pass, x.tail<kVelocityDim>(), tau, lambda_W, out);
+  linearizeEndEffectorOf(*constants_, pass, x, end_effector);
 }
 
 }  // namespace ballbot

@@ -52,31 +52,6 @@ StateVector ReducedDynamics::derivative(const StateVector& x, const JointVector&
   return dx;
 }
 
-ReducedDynamics::EndEffector ReducedDynamics::endEffector(const StateVector& x) const {
-  const PositionVector q = x.head<kPositionDim>();
-  const Pass pass(*constants_, q, x.tail<kVelocityDim>());
-  EndEffector out;
-  out.p_WE = Vector3(x[kBallX], x[kBallY], constants_->ball_radius) + pass.R_WB * pass.p_KE;
-  out.R_WE = pass.R_WB * pass.R_BA3 * constants_->R_A3E;
-  const Eigen::Matrix<double, 6, 1> twist = endEffectorJacobian(q) * x.tail<kVelocityDim>();
-  out.v_WE_W = twist.head<3>();
-  out.w_WE_W = twist.tail<3>();
-  return out;
-}
-
-EndEffectorJacobian ReducedDynamics::endEffectorJacobian(const PositionVector& q) const {
-  const Pass pass(*constants_, q, VelocityVector::Zero());
-  EndEffectorJacobian J = EndEffectorJacobian::Zero();
-  J.topLeftCorner<2, 2>().setIdentity();
-  J.block<3, 3>(0, kOmegaX) = -pass.R_WB * skew(pass.p_KE);
-  J.block<3, 3>(3, kOmegaX) = pass.R_WB;
-  for (int i = 0; i < kArmJointCount; ++i) {
-    J.block<3, 1>(0, kArmRate1 + i) = pass.R_WB * pass.tipVelocity(i);
-    J.block<3, 1>(3, kArmRate1 + i) = pass.R_WB * pass.joint[i].angular;
-  }
-  return J;
-}
-
 double ReducedDynamics::energy(const StateVector& x) const {
   const VelocityVector nu = x.tail<kVelocityDim>();
   const Pass pass(*constants_, x.head<kPositionDim>(), nu);

@@ -42,25 +42,40 @@ class ReducedDynamics {
   StateVector derivative(const StateVector& x, const JointVector& tau,
                          const Vector3& lambda_W) const;
 
-  /// dx/dt with its partial derivatives, in one pass.
+  /// dx/dt with its partial derivatives. Entries that are zero at every state (the columns of px
+  /// and py; what dq does not depend on) are set by the constructor only and must stay.
   struct Linearization {
-    StateVector f;
-    StateJacobian df_dx;
-    TorqueJacobian df_dtau;
-    ForceJacobian df_dlambda;
+    StateVector f = StateVector::Zero();
+    StateJacobian df_dx = StateJacobian::Zero();
+    TorqueJacobian df_dtau = TorqueJacobian::Zero();
+    ForceJacobian df_dlambda = ForceJacobian::Zero();
   };
   void linearize(const StateVector& x, const JointVector& tau, const Vector3& lambda_W,
                  Linearization& out) const;
 
   struct EndEffector {
-    Vector3 p_WE;      ///< position in W [m]
-    Matrix3 R_WE;      ///< orientation
-    Vector3 v_WE_W;    ///< velocity [m/s]
-    Vector3 w_WE_W;    ///< angular velocity, in W [rad/s]
+    Vector3 p_WE;    ///< position in W [m]
+    Matrix3 R_WE;    ///< orientation
+    Vector3 v_WE_W;  ///< velocity [m/s]
+    Vector3 w_WE_W;  ///< angular velocity, in W [rad/s]
   };
   EndEffector endEffector(const StateVector& x) const;
   /// (v_WE_W; w_WE_W) = J nu.
   EndEffectorJacobian endEffectorJacobian(const PositionVector& q) const;
+
+  /// Pose and twist of the end-effector with their derivatives. Rows: displacement of E, then small
+  /// rotation of E about axes of W; of the twist: v_WE_W, then w_WE_W.
+  struct EndEffectorLinearization {
+    EndEffector value;
+    EndEffectorJacobian jacobian = EndEffectorJacobian::Zero();  ///< of the twist by nu, and so of
+                                                                 ///< the pose by nu dt
+    EndEffectorJacobian dpose_dq = EndEffectorJacobian::Zero();  ///< by (px, py, yaw, pitch, ...)
+    EndEffectorJacobian dtwist_dq = EndEffectorJacobian::Zero();
+  };
+  void linearizeEndEffector(const StateVector& x, EndEffectorLinearization& out) const;
+  /// Dynamics and end-effector at once, for little more than the dynamics alone.
+  void linearize(const StateVector& x, const JointVector& tau, const Vector3& lambda_W,
+                 Linearization& out, EndEffectorLinearization& end_effector) const;
 
   /// Kinetic plus potential energy [J], zero potential at z = 0.
   double energy(const StateVector& x) const;

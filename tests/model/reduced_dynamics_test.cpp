@@ -70,21 +70,6 @@ TEST_F(ReducedDynamicsTest, EulerRatesAreThoseOfTheRotation) {
   }
 }
 
-TEST_F(ReducedDynamicsTest, EndEffectorVelocityIsTheDerivativeOfItsPose) {
-  for (int i = 0; i < kCases; ++i) {
-    const RandomCase c = randomCase(i);
-    const double h = 1e-6;
-    StateVector dx = StateVector::Zero();
-    dx.head<8>() = positionRate(c.x.head<8>(), c.x.tail<8>());
-    const auto after = dynamics.endEffector(c.x + h * dx),
-               before = dynamics.endEffector(c.x - h * dx);
-    const auto now = dynamics.endEffector(c.x);
-    EXPECT_LT(((after.p_WE - before.p_WE) / (2 * h) - now.v_WE_W).norm(), 1e-8);
-    const Vector3 w_E = logSO3(before.R_WE.transpose() * after.R_WE) / (2 * h);
-    EXPECT_LT((now.R_WE * w_E - now.w_WE_W).norm(), 1e-8);
-  }
-}
-
 TEST_F(ReducedDynamicsTest, TurningTheWorldAboutTheVerticalChangesNothing) {
   const double angle = 0.7;
   const Matrix3 Rz = rotationFromYawPitchRoll(angle, 0, 0);
