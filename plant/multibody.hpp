@@ -67,6 +67,12 @@ struct BaseAcceleration {
   Vector3 alpha_WB_W = Vector3::Zero();  ///< [rad/s^2]
 };
 
+/// Acceleration of joints and rotors, the latter divided by the gear ratio [rad/s^2].
+struct JointAcceleration {
+  JointVector joint = JointVector::Zero();
+  JointVector rotor = JointVector::Zero();
+};
+
 /// Where a body is and how it moves, of its origin.
 struct BodyMotion {
   Vector3 p_WL = Vector3::Zero();
@@ -107,8 +113,9 @@ class Multibody {
   virtual void derivative(const MultibodyLoads& loads, double* ydot) = 0;
   /// dy/dt while a stand holds ball, base, wheels and arm still: only the rotors move.
   virtual void derivativeHeld(const MultibodyLoads& loads, double* ydot) = 0;
-  /// Accelerations contained in a ydot that derivative() gave.
+  /// Accelerations contained in a ydot that derivative() gave at the current state.
   virtual BaseAcceleration baseAcceleration(const double* ydot) const = 0;
+  virtual JointAcceleration jointAcceleration(const double* ydot) const = 0;
 
   /// Removes from y what integration let it drift off the constraints: quaternion length and, in
   /// the full structure, wheel rates that are not those of rolling.

@@ -124,6 +124,16 @@ class FullMultibody final : public Multibody {
     return {{udot[0], udot[1], 0}, Eigen::Map<const Vector3>(udot + tree_.omegaOffset())};
   }
 
+  JointAcceleration jointAcceleration(const double* ydot) const override {
+    const double* udot = ydot + nq_;
+    JointAcceleration a;
+    for (int i = 0; i < kJointCount; ++i) {
+      a.joint[i] = udot[jointU(i)];
+      a.rotor[i] = options_.rotors ? udot[rotorU(i)] / options_.gear_ratio[i] : a.joint[i];
+    }
+    return a;
+  }
+
   void project(double* y) const override {
     tree_.normalizeQuaternion(y);
     double* u = y + nq_;
