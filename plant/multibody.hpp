@@ -54,11 +54,11 @@ struct JointMotion {
 
 /// Motion of the ball centre K and of the base, which has its origin there.
 struct BaseMotion {
-  Vector3 p_WK = Vector3::Zero();       ///< [m]
+  Vector3 p_WK = Vector3::Zero();  ///< [m]
   Matrix3 R_WB = Matrix3::Identity();
-  Vector3 v_WK_W = Vector3::Zero();     ///< [m/s]
-  Vector3 w_WB_W = Vector3::Zero();     ///< [rad/s]
-  double ball_spin = 0;                 ///< of the ball about the vertical [rad/s]
+  Vector3 v_WK_W = Vector3::Zero();  ///< [m/s]
+  Vector3 w_WB_W = Vector3::Zero();  ///< [rad/s]
+  double ball_spin = 0;              ///< of the ball about the vertical [rad/s]
 };
 
 /// Acceleration of the same.
@@ -83,9 +83,9 @@ struct BodyMotion {
 
 /// Pose the robot is put in, at rest.
 struct RobotPose {
-  double px = 0, py = 0;             ///< of K [m]
+  double px = 0, py = 0;                ///< of K [m]
   double yaw = 0, pitch = 0, roll = 0;  ///< [rad]
-  Vector3 arm = Vector3::Zero();     ///< [rad]
+  Vector3 arm = Vector3::Zero();        ///< [rad]
 };
 
 /// The robot's rigid bodies on a ball that rolls on a level floor without slip, as an ordinary

@@ -1,10 +1,9 @@
-#include "plant/multibody_structures.hpp"
-
 #include <algorithm>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "plant/multibody_structures.hpp"
 #include "plant/robot_tree.hpp"
 
 namespace ballbot {
@@ -160,8 +159,9 @@ class FullMultibody final : public Multibody {
       const Vector3 d = robot_.wheelAxle(i);
       BodyInertia wheel;
       wheel.mass = robot_.wheels.mass;
-      wheel.I_LLcm_L = robot_.wheels.transverse_inertia * (Matrix3::Identity() - d * d.transpose()) +
-                       robot_.wheels.spin_inertia * d * d.transpose();
+      wheel.I_LLcm_L =
+          robot_.wheels.transverse_inertia * (Matrix3::Identity() - d * d.transpose()) +
+          robot_.wheels.spin_inertia * d * d.transpose();
       SimTK::MobilizedBody::Pin(base, pinFrame(d, robot_.wheelCentre(i)), toBody(wheel, "a wheel"),
                                 pinFrame(d, Vector3::Zero()));
     }

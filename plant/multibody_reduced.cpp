@@ -232,8 +232,8 @@ class ReducedMultibody final : public Multibody {
     Vector3 alpha = udot.segment<3>(tree_.omegaOffset());  // of the carrier, link by link
     for (int i = 0; i < kJointCount; ++i) {
       ydot[rotorAngles() + i] = joints_.rotor_velocity[i];
-      ydot[rotorRates() + i] =
-          loads.rotor_torque[i] / reflectedInertia(i) - axis_W_[i].dot(alpha) / options_.gear_ratio[i];
+      ydot[rotorRates() + i] = loads.rotor_torque[i] / reflectedInertia(i) -
+                               axis_W_[i].dot(alpha) / options_.gear_ratio[i];
       if (i < kWheelCount) continue;
       alpha += udot[tree_.armUOffset() + i - kWheelCount] * axis_W_[i] +
                joints_.velocity[i] * tree_.body(mounts_[i].parent).w_WL_W.cross(axis_W_[i]);

@@ -1,9 +1,8 @@
 #include "plant/multibody.hpp"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "model/frames.hpp"
@@ -49,9 +48,9 @@ TEST(Multibody, AgreesWithAFreeBallOnAFloor) {
       const RandomMotion motion = randomMotion(i);
       const auto a = oracle.acceleration(motion.pose, motion.nu, motion.loads);
       ASSERT_LT(oracle.velocityError(), 1e-12);  // both were given the same motion
-      EXPECT_LT(relativeDifference(accelerations(*plant, motion),
-                                   {a.a_WK_W, a.alpha_WB_W, a.joints, {}}),
-                1e-9)
+      EXPECT_LT(
+          relativeDifference(accelerations(*plant, motion), {a.a_WK_W, a.alpha_WB_W, a.joints, {}}),
+          1e-9)
           << "state " << i;
     }
   }
@@ -108,8 +107,8 @@ TEST(Multibody, HeldRotorsLeaveTheRobotAsItIs) {
       // Base and ball turn as one, the arm stands still in the base: no rotor turns in its carrier.
       RandomMotion motion = randomMotion(i);
       const RobotPose& p = motion.pose;
-      const Vector3 w_W = rotationFromYawPitchRoll(p.yaw, p.pitch, p.roll) *
-                          motion.nu.segment<3>(kOmegaX);
+      const Vector3 w_W =
+          rotationFromYawPitchRoll(p.yaw, p.pitch, p.roll) * motion.nu.segment<3>(kOmegaX);
       motion.nu.head<2>() = robot.ball.radius * Eigen::Vector2d(w_W.y(), -w_W.x());
       motion.nu.tail<3>().setZero();
       motion.ball_spin = w_W.z();

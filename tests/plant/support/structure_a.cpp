@@ -1,10 +1,9 @@
 #include "structure_a.hpp"
 
-#include <Simbody.h>
-
 #include <array>
 
 #include <Eigen/Geometry>
+#include <Simbody.h>
 
 #include "model/frames.hpp"
 
@@ -49,11 +48,12 @@ struct StructureA::Impl {
       wheel.mass = r.wheels.mass;
       wheel.I_LLcm_L = r.wheels.transverse_inertia * Matrix3::Identity() +
                        (r.wheels.spin_inertia - r.wheels.transverse_inertia) * d * d.transpose();
-      joints[i] = MobilizedBody::Pin(base, pin(d, r.wheelCentre(i)), rigid(wheel),
-                                     pin(d, Vector3::Zero()));
+      joints[i] =
+          MobilizedBody::Pin(base, pin(d, r.wheelCentre(i)), rigid(wheel), pin(d, Vector3::Zero()));
     }
     for (int j = 0; j < kArmJointCount; ++j) {
-      const BodyInertia inertia = j + 1 < kArmJointCount ? r.arm[j].inertia : r.lastLinkWithPayload();
+      const BodyInertia inertia =
+          j + 1 < kArmJointCount ? r.arm[j].inertia : r.lastLinkWithPayload();
       MobilizedBody& parent = j == 0 ? base : joints[kWheelCount + j - 1];
       joints[kWheelCount + j] =
           MobilizedBody::Pin(parent, pin(r.arm[j].axis, r.arm[j].p_PJ_P), rigid(inertia),
@@ -88,9 +88,9 @@ StructureA::Acceleration StructureA::acceleration(const RobotPose& pose, const V
   SimTK::State& s = impl_->state;
   const double r = impl_->robot.ball.radius;
   const Matrix3 R = rotationFromYawPitchRoll(pose.yaw, pose.pitch, pose.roll);
-  Rotation R_WB(SimTK::Mat33(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1),
-                             R(2, 2)),
-                true);
+  Rotation R_WB(
+      SimTK::Mat33(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)),
+      true);
   const Vec3 v(nu[kBallVx], nu[kBallVy], 0), w_ball(-v[1] / r, v[0] / r, 0);
   impl_->ball.setQToFitTransform(s, Transform(Vec3(pose.px, pose.py, r)));
   impl_->ball.setUToFitVelocity(s, SpatialVec(w_ball, v));
@@ -122,9 +122,10 @@ StructureA::Acceleration StructureA::acceleration(const RobotPose& pose, const V
     impl_->joints[i].applyOneMobilityForce(s, 0, loads.joint_torque[i], mobility);
   }
   for (const PointForce& f : loads.forces) {
-    const MobilizedBody& b = f.body == kBallBody   ? impl_->ball
-                             : f.body == kBaseBody ? impl_->base
-                                                   : impl_->joints[kWheelCount + f.body - kLink1Body];
+    const MobilizedBody& b = f.body == kBallBody ? impl_->ball
+                             : f.body == kBaseBody
+                                 ? impl_->base
+                                 : impl_->joints[kWheelCount + f.body - kLink1Body];
     b.applyForceToBodyPoint(s, vec(f.p_BP_B), vec(f.force_W), forces);
   }
   impl_->matter.calcAcceleration(s, mobility, forces, udot, A);
