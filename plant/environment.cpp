@@ -18,8 +18,8 @@ BodyIndex bodyByName(ConfigReader& in, const RobotParameters& robot) {
   for (const ArmLink& link : robot.arm) names.push_back(link.name);
   const auto it = std::find(names.begin(), names.end(), name);
   if (it == names.end()) {
-    throw InputError(fmt::format("{} is '{}', must be one of: {}", in.at("body"), name,
-                                 fmt::join(names, ", ")));
+    throw InputError(
+        fmt::format("{} is '{}', must be one of: {}", in.at("body"), name, fmt::join(names, ", ")));
   }
   return static_cast<BodyIndex>(it - names.begin());
 }

@@ -54,17 +54,23 @@ struct JointMotion {
 
 /// Motion of the ball centre K and of the base, which has its origin there.
 struct BaseMotion {
-  Vector3 p_WK = Vector3::Zero();       ///< [m]
+  Vector3 p_WK = Vector3::Zero();  ///< [m]
   Matrix3 R_WB = Matrix3::Identity();
-  Vector3 v_WK_W = Vector3::Zero();     ///< [m/s]
-  Vector3 w_WB_W = Vector3::Zero();     ///< [rad/s]
-  double ball_spin = 0;                 ///< of the ball about the vertical [rad/s]
+  Vector3 v_WK_W = Vector3::Zero();  ///< [m/s]
+  Vector3 w_WB_W = Vector3::Zero();  ///< [rad/s]
+  double ball_spin = 0;              ///< of the ball about the vertical [rad/s]
 };
 
 /// Acceleration of the same.
 struct BaseAcceleration {
   Vector3 a_WK_W = Vector3::Zero();      ///< [m/s^2]
   Vector3 alpha_WB_W = Vector3::Zero();  ///< [rad/s^2]
+};
+
+/// Acceleration of joints and rotors, the latter divided by the gear ratio [rad/s^2].
+struct JointAcceleration {
+  JointVector joint = JointVector::Zero();
+  JointVector rotor = JointVector::Zero();
 };
 
 /// Where a body is and how it moves, of its origin.
@@ -77,9 +83,9 @@ struct BodyMotion {
 
 /// Pose the robot is put in, at rest.
 struct RobotPose {
-  double px = 0, py = 0;             ///< of K [m]
+  double px = 0, py = 0;                ///< of K [m]
   double yaw = 0, pitch = 0, roll = 0;  ///< [rad]
-  Vector3 arm = Vector3::Zero();     ///< [rad]
+  Vector3 arm = Vector3::Zero();        ///< [rad]
 };
 
 /// The robot's rigid bodies on a ball that rolls on a level floor without slip, as an ordinary
@@ -107,8 +113,9 @@ class Multibody {
   virtual void derivative(const MultibodyLoads& loads, double* ydot) = 0;
   /// dy/dt while a stand holds ball, base, wheels and arm still: only the rotors move.
   virtual void derivativeHeld(const MultibodyLoads& loads, double* ydot) = 0;
-  /// Accelerations contained in a ydot that derivative() gave.
+  /// Accelerations contained in a ydot that derivative() gave at the current state.
   virtual BaseAcceleration baseAcceleration(const double* ydot) const = 0;
+  virtual JointAcceleration jointAcceleration(const double* ydot) const = 0;
 
   /// Removes from y what integration let it drift off the constraints: quaternion length and, in
   /// the full structure, wheel rates that are not those of rolling.

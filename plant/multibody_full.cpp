@@ -1,10 +1,9 @@
-#include "plant/multibody_structures.hpp"
-
 #include <algorithm>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "plant/multibody_structures.hpp"
 #include "plant/robot_tree.hpp"
 
 namespace ballbot {
@@ -124,6 +123,16 @@ class FullMultibody final : public Multibody {
     return {{udot[0], udot[1], 0}, Eigen::Map<const Vector3>(udot + tree_.omegaOffset())};
   }
 
+  JointAcceleration jointAcceleration(const double* ydot) const override {
+    const double* udot = ydot + nq_;
+    JointAcceleration a;
+    for (int i = 0; i < kJointCount; ++i) {
+      a.joint[i] = udot[jointU(i)];
+      a.rotor[i] = options_.rotors ? udot[rotorU(i)] / options_.gear_ratio[i] : a.joint[i];
+    }
+    return a;
+  }
+
   void project(double* y) const override {
     tree_.normalizeQuaternion(y);
     double* u = y + nq_;
@@ -150,8 +159,9 @@ class FullMultibody final : public Multibody {
       const Vector3 d = robot_.wheelAxle(i);
       BodyInertia wheel;
       wheel.mass = robot_.wheels.mass;
-      wheel.I_LLcm_L = robot_.wheels.transverse_inertia * (Matrix3::Identity() - d * d.transpose()) +
-                       robot_.wheels.spin_inertia * d * d.transpose();
+      wheel.I_LLcm_L =
+          robot_.wheels.transverse_inertia * (Matrix3::Identity() - d * d.transpose()) +
+          robot_.wheels.spin_inertia * d * d.transpose();
       SimTK::MobilizedBody::Pin(base, pinFrame(d, robot_.wheelCentre(i)), toBody(wheel, "a wheel"),
                                 pinFrame(d, Vector3::Zero()));
     }

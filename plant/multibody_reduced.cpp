@@ -88,9 +88,12 @@ class ReducedMultibody final : public Multibody {
     m.angle.tail<kArmJointCount>() = Eigen::Map<const Vector3>(y + tree_.armQOffset());
     m.velocity.head<kWheelCount>() = rolling_.rates(tree_.base().R_WB, u);
     m.velocity.tail<kArmJointCount>() = Eigen::Map<const Vector3>(u + tree_.armUOffset());
-    m.rotor_angle = options_.rotors ? Eigen::Map<const JointVector>(y + rotorAngles()) : m.angle;
-    m.rotor_velocity =
-        options_.rotors ? Eigen::Map<const JointVector>(y + rotorRates()) : m.velocity;
+    m.rotor_angle = m.angle;
+    m.rotor_velocity = m.velocity;
+    if (options_.rotors) {
+      m.rotor_angle = Eigen::Map<const JointVector>(y + rotorAngles());
+      m.rotor_velocity = Eigen::Map<const JointVector>(y + rotorRates());
+    }
     for (int i = 0; i < kJointCount; ++i) {
       const BodyMotion& parent = tree_.body(mounts_[i].parent);
       axis_W_[i] = parent.R_WL * mounts_[i].axis;
@@ -134,6 +137,17 @@ class ReducedMultibody final : public Multibody {
   BaseAcceleration baseAcceleration(const double* ydot) const override {
     const double* udot = ydot + nq_;
     return {{udot[0], udot[1], 0}, Eigen::Map<const Vector3>(udot + tree_.omegaOffset())};
+  }
+
+  JointAcceleration jointAcceleration(const double* ydot) const override {
+    const double* udot = ydot + nq_;
+    JointAcceleration a;
+    a.joint.head<kWheelCount>() =
+        rolling_.rates(tree_.base().R_WB, udot) + rolling_.bias(tree_.base());
+    a.joint.tail<kArmJointCount>() = Eigen::Map<const Vector3>(udot + tree_.armUOffset());
+    a.rotor = a.joint;
+    if (options_.rotors) a.rotor = Eigen::Map<const JointVector>(ydot + rotorRates());
+    return a;
   }
 
   void project(double* y) const override { tree_.normalizeQuaternion(y); }
@@ -218,8 +232,8 @@ class ReducedMultibody final : public Multibody {
     Vector3 alpha = udot.segment<3>(tree_.omegaOffset());  // of the carrier, link by link
     for (int i = 0; i < kJointCount; ++i) {
       ydot[rotorAngles() + i] = joints_.rotor_velocity[i];
-      ydot[rotorRates() + i] =
-          loads.rotor_torque[i] / reflectedInertia(i) - axis_W_[i].dot(alpha) / options_.gear_ratio[i];
+      ydot[rotorRates() + i] = loads.rotor_torque[i] / reflectedInertia(i) -
+                               axis_W_[i].dot(alpha) / options_.gear_ratio[i];
       if (i < kWheelCount) continue;
       alpha += udot[tree_.armUOffset() + i - kWheelCount] * axis_W_[i] +
                joints_.velocity[i] * tree_.body(mounts_[i].parent).w_WL_W.cross(axis_W_[i]);

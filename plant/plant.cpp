@@ -42,9 +42,9 @@ void requireFinite(const ActuatorCommand& command, SimTime t) {
   for (const auto& part : parts) {
     for (int i = 0; i < kJointCount; ++i) {
       if (std::isfinite(part.value[i])) continue;
-      throw NumericalError(fmt::format("command at {}: {} of {} {} is {}, must be finite",
-                                       toText(t), part.name, i < kWheelCount ? "wheel" : "arm joint",
-                                       i % kWheelCount + 1, part.value[i]));
+      throw NumericalError(
+          fmt::format("command at {}: {} of {} {} is {}, must be finite", toText(t), part.name,
+                      i < kWheelCount ? "wheel" : "arm joint", i % kWheelCount + 1, part.value[i]));
     }
   }
 }
@@ -107,8 +107,8 @@ class Plant::Impl {
     const StateBlob text = in.getBlob();
     const std::string form(text.begin(), text.end());
     if (form != form_) {
-      throw InputError(fmt::format("saved plant state is of a plant with {}; this one has {}", form,
-                                   form_));
+      throw InputError(
+          fmt::format("saved plant state is of a plant with {}; this one has {}", form, form_));
     }
     State restored = state_;
     PlantDynamics::Actuators actuators = dynamics_.actuators();
@@ -192,8 +192,8 @@ class Plant::Impl {
     if (!held) dynamics_.project(s.y.data());
     for (const double value : s.y) {
       if (!std::isfinite(value)) {
-        throw NumericalError(fmt::format("plant at {}: the state is not finite any more",
-                                         toText(next)));
+        throw NumericalError(
+            fmt::format("plant at {}: the state is not finite any more", toText(next)));
       }
     }
     s.now = next;
@@ -221,8 +221,7 @@ class Plant::Impl {
   /// Fills the frames from the realized state.
   void observe() {
     const JointMotion joints = dynamics_.multibody().joints();
-    const JointVector torque =
-        dynamics_.jointTorque(toSeconds(state_.now - state_.last_tick));
+    const JointVector torque = dynamics_.jointTorque(toSeconds(state_.now - state_.last_tick));
     observeSensors(joints, torque);
     observeTruth(joints, torque);
   }
@@ -238,8 +237,8 @@ class Plant::Impl {
     f.joint_torque = torque;
     if (!ideal_actuators_ && !encoders.ideal()) {
       for (int i = 0; i < kJointCount; ++i) {
-        f.joint_torque[i] = config_.actuators.of(i).spring_stiffness *
-                            (f.motor_angle[i] - f.joint_angle[i]);
+        f.joint_torque[i] =
+            config_.actuators.of(i).spring_stiffness * (f.motor_angle[i] - f.joint_angle[i]);
       }
     }
     f.imu_count = imu.count;

@@ -16,14 +16,13 @@ PlantFidelity readFidelity(ConfigReader in) {
   f.multibody = in.choiceOr("multibody", f.multibody,
                             {{"full", MultibodyStructure::kFull},
                              {"reduced_wheels", MultibodyStructure::kReducedWheels}});
-  f.actuators = in.choiceOr("actuators", f.actuators,
-                            {{"ideal", ActuatorLevel::kIdeal},
-                             {"series_elastic", ActuatorLevel::kSeriesElastic}});
+  f.actuators = in.choiceOr(
+      "actuators", f.actuators,
+      {{"ideal", ActuatorLevel::kIdeal}, {"series_elastic", ActuatorLevel::kSeriesElastic}});
   f.contact = in.choiceOr("contact", f.contact,
                           {{"rolling", ContactLevel::kRolling},
                            {"rolling_with_spin_friction", ContactLevel::kRollingWithSpinFriction}});
-  f.noisy_sensors =
-      in.choiceOr("sensors", f.noisy_sensors, {{"perfect", false}, {"noisy", true}});
+  f.noisy_sensors = in.choiceOr("sensors", f.noisy_sensors, {{"perfect", false}, {"noisy", true}});
   f.encoder_quantisation = in.booleanOr("encoder_quantisation", f.encoder_quantisation);
   f.friction = in.booleanOr("friction", f.friction);
   f.saturation = in.booleanOr("saturation", f.saturation);

@@ -31,7 +31,8 @@ struct PlantFidelity {
   bool transport_delay = true;
 };
 
-/// Friction torque of the floor on the ball's spin s about the vertical: -torque tanh(s / smoothing).
+/// Friction torque of the floor on the ball's spin s about the vertical: -torque tanh(s /
+/// smoothing).
 struct SpinFriction {
   double torque = 0.4;      ///< [N m]
   double smoothing = 0.02;  ///< [rad/s]

@@ -54,7 +54,8 @@ Matrix3 toEigen(const SimTK::Rotation& R) {
 
 SimTK::Body toBody(const BodyInertia& b, const std::string& name) {
   const Vector3& c = b.p_LLcm_L;
-  const Matrix3 I = b.I_LLcm_L + b.mass * (c.squaredNorm() * Matrix3::Identity() - c * c.transpose());
+  const Matrix3 I =
+      b.I_LLcm_L + b.mass * (c.squaredNorm() * Matrix3::Identity() - c * c.transpose());
   try {
     return SimTK::Body::Rigid(SimTK::MassProperties(
         b.mass, toSimTK(c), SimTK::Inertia(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2))));
@@ -85,10 +86,9 @@ RobotTree::RobotTree(const RobotParameters& robot, const BodyInertia& base,
   BodyInertia rolling;  // of the ball, as far as its rolling goes
   rolling.mass = robot.ball.mass + robot.ball.inertia / (r * r);
   const BodyInertia nothing;
-  SimTK::MobilizedBody::Custom carriage(matter.Ground(), new HorizontalMobilizer(matter),
-                                        SimTK::Transform(Vec3(0, 0, r)),
-                                        toBody(ball_spin ? nothing : rolling, "the ball"),
-                                        SimTK::Transform());
+  SimTK::MobilizedBody::Custom carriage(
+      matter.Ground(), new HorizontalMobilizer(matter), SimTK::Transform(Vec3(0, 0, r)),
+      toBody(ball_spin ? nothing : rolling, "the ball"), SimTK::Transform());
   bodies_[kBallBody] = carriage;
   if (ball_spin) {
     rolling.I_LLcm_L = robot.ball.inertia * Matrix3::Identity();

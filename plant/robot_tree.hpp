@@ -1,9 +1,9 @@
 #pragma once
 
 // Includes Simbody: for multibody_full.cpp, multibody_reduced.cpp and robot_tree.cpp only.
-#include <Simbody.h>
-
 #include <array>
+
+#include <Simbody.h>
 
 #include "plant/multibody.hpp"
 
@@ -98,8 +98,8 @@ class RobotTree {
 /// Where an actuator's housing sits: wheels on the base, arm joints on the link before.
 struct ActuatorMount {
   BodyIndex parent;
-  Vector3 axis;      ///< unit, in parent's axes
-  Vector3 p_PA_P;    ///< in the parent's frame [m]
+  Vector3 axis;    ///< unit, in parent's axes
+  Vector3 p_PA_P;  ///< in the parent's frame [m]
 };
 std::array<ActuatorMount, kJointCount> actuatorMounts(const RobotParameters& robot);
 

@@ -43,8 +43,8 @@ SensorParameters SensorParameters::read(ConfigReader& in) {
   ConfigReader encoders = in.child("encoders");
   p.encoders.motor_resolution = kDegree * encoders.number("motor_resolution_deg", not_negative);
   p.encoders.joint_resolution = kDegree * encoders.number("joint_resolution_deg", not_negative);
-  p.encoders.motor_velocity_filter =
-      encoders.numberOr("motor_velocity_filter_Hz", p.encoders.motor_velocity_filter, {kTiny, kInf});
+  p.encoders.motor_velocity_filter = encoders.numberOr(
+      "motor_velocity_filter_Hz", p.encoders.motor_velocity_filter, {kTiny, kInf});
   p.encoders.joint_velocity_filter = encoders.number("velocity_filter_Hz", {kTiny, kInf});
   encoders.finish();
   in.finish();

@@ -14,19 +14,19 @@ class ConfigReader;
 /// A sample is the average over the period before it. Standard deviations per axis.
 struct ImuParameters {
   SimDuration period{2'500'000};
-  double gyro_noise = 1.2e-4;          ///< white, density [rad/s/sqrt(Hz)]
-  double accel_noise = 1.2e-3;         ///< white, density [m/s^2/sqrt(Hz)]
-  double gyro_bias_walk = 2e-5;        ///< [rad/s/sqrt(s)]
-  double accel_bias_walk = 3e-4;       ///< [m/s^2/sqrt(s)]
-  double gyro_turn_on_bias = 0.003;    ///< [rad/s]
-  double accel_turn_on_bias = 0.03;    ///< [m/s^2]
-  double gyro_resolution = 1.065e-3;   ///< quantum of the output, 0 for none [rad/s]
-  double accel_resolution = 4.79e-3;   ///< [m/s^2]
+  double gyro_noise = 1.2e-4;         ///< white, density [rad/s/sqrt(Hz)]
+  double accel_noise = 1.2e-3;        ///< white, density [m/s^2/sqrt(Hz)]
+  double gyro_bias_walk = 2e-5;       ///< [rad/s/sqrt(s)]
+  double accel_bias_walk = 3e-4;      ///< [m/s^2/sqrt(s)]
+  double gyro_turn_on_bias = 0.003;   ///< [rad/s]
+  double accel_turn_on_bias = 0.03;   ///< [m/s^2]
+  double gyro_resolution = 1.065e-3;  ///< quantum of the output, 0 for none [rad/s]
+  double accel_resolution = 4.79e-3;  ///< [m/s^2]
 };
 
 struct EncoderParameters {
-  double motor_resolution = 0;     ///< behind the gear, joint side [rad]
-  double joint_resolution = 0;     ///< behind the spring [rad]
+  double motor_resolution = 0;         ///< behind the gear, joint side [rad]
+  double joint_resolution = 0;         ///< behind the spring [rad]
   double motor_velocity_filter = 400;  ///< low-pass on the differenced motor angle [Hz]
   double joint_velocity_filter = 80;   ///< low-pass on the differenced joint angle [Hz]
 };

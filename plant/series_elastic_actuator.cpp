@@ -38,8 +38,8 @@ SeriesElasticActuator::Torques SeriesElasticActuator::torques(double since_tick,
   const double motor_velocity = spring_ ? m.rotor_velocity : m.joint_velocity;
   double motor = motorTorque(since_tick);
   if (speed_limit_) {
-    motor = std::clamp(motor, -torqueAtSpeed(p_, -motor_velocity),
-                       torqueAtSpeed(p_, motor_velocity));
+    motor =
+        std::clamp(motor, -torqueAtSpeed(p_, -motor_velocity), torqueAtSpeed(p_, motor_velocity));
   }
   if (friction_) motor -= actuatorFriction(p_, motor_velocity);
   if (!spring_) return {motor, 0};

@@ -13,16 +13,16 @@ struct DriveReading {
 
 /// One joint's part of an ActuatorCommand.
 struct DriveCommand {
-  double torque = 0;                ///< feedforward [N m]
-  double position = 0;              ///< [rad]
-  double velocity = 0;              ///< [rad/s]
+  double torque = 0;                  ///< feedforward [N m]
+  double position = 0;                ///< [rad]
+  double velocity = 0;                ///< [rad/s]
   double stiffness = 0, damping = 0;  ///< [N m/rad, N m s/rad]
 };
 
 struct DriveOptions {
-  bool torque_loop = true;        ///< false: the motor torque is the joint torque (no spring)
-  bool saturation = true;         ///< of the motor torque, at its peak
-  bool leak_compensation = false; ///< feeds the rotor's own inertia and drag forward
+  bool torque_loop = true;         ///< false: the motor torque is the joint torque (no spring)
+  bool saturation = true;          ///< of the motor torque, at its peak
+  bool leak_compensation = false;  ///< feeds the rotor's own inertia and drag forward
   SimDuration period{400'000};
 };
 
