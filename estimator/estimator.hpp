@@ -2,6 +2,7 @@
 
 #include "core/state_blob.hpp"
 #include "core/time.hpp"
+#include "estimator/rejections.hpp"
 #include "model/signals.hpp"
 #include "model/state.hpp"
 
@@ -29,6 +30,9 @@ class Estimator {
 
   /// The estimate brought forward to `now`, at or after the last frame's time.
   virtual StateEstimate estimate(SimTime now) const noexcept = 0;
+
+  /// What was not believed so far, and why.
+  virtual RejectionCounts rejections() const noexcept { return {}; }
 
   virtual StateBlob saveState() const = 0;
   virtual void restoreState(const StateBlob& blob) = 0;

@@ -22,6 +22,12 @@ struct SensorFrame {
   SimTime imu_time{};  ///< end of the interval over which the IMU sample is averaged
   Vector3 accel_B = Vector3::Zero();    ///< specific force at the IMU, in B [m/s^2]
   Vector3 gyro_WB_B = Vector3::Zero();  ///< angular velocity of B in W, in B [rad/s]
+
+  /// External pose measurement (motion capture), where there is one; counted like IMU samples and
+  /// usually some ten milliseconds old when it arrives.
+  std::int64_t pose_count = 0;
+  SimTime pose_time{};                  ///< when the pose was taken
+  Vector3 pose_W = Vector3::Zero();     ///< ball centre x, y [m] and yaw [rad], any whole turn
 };
 
 /// What the drives are asked to do, until the next command. Each drive applies

@@ -1,0 +1,90 @@
+#include "estimator/external_pose.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "estimator/attitude.hpp"
+#include "model/frames.hpp"
+
+namespace ballbot {
+
+void PoseHistory::add(const Entry& entry) noexcept {
+  entries_[static_cast<std::size_t>(next_)] = entry;
+  next_ = (next_ + 1) % kCapacity;
+  size_ = std::min(size_ + 1, kCapacity);
+}
+
+std::optional<PoseHistory::Entry> PoseHistory::at(SimTime time) const noexcept {
+  if (size_ == 0 || time > fromNewest(0).time) return std::nullopt;
+  if (time == fromNewest(0).time) return fromNewest(0);
+  for (int age = 1; age < size_; ++age) {
+    const Entry& before = fromNewest(age);
+    if (before.time > time) continue;
+    const Entry& after = fromNewest(age - 1);
+    const double fraction = toSeconds(time - before.time) / toSeconds(after.time - before.time);
+    return Entry{time, before.p_WK_W + fraction * (after.p_WK_W - before.p_WK_W),
+                 before.yaw + fraction * (after.yaw - before.yaw)};
+  }
+  return std::nullopt;
+}
+
+void PoseHistory::moveTo(const Entry& now) noexcept {
+  const Entry old = fromNewest(0);
+  const Eigen::Rotation2Dd turn(now.yaw - old.yaw);
+  for (int age = 0; age < size_; ++age) {
+    Entry& entry =
+        entries_[static_cast<std::size_t>((next_ + 2 * kCapacity - 1 - age) % kCapacity)];
+    entry.p_WK_W = now.p_WK_W + turn * (entry.p_WK_W - old.p_WK_W);
+    entry.yaw += now.yaw - old.yaw;
+  }
+}
+
+void PoseHistory::save(BlobWriter& out) const {
+  out.put(size_);
+  for (int age = size_ - 1; age >= 0; --age) {
+    out.put(toNs(fromNewest(age).time));
+    out.putDoubles(fromNewest(age).p_WK_W.data(), 2);
+    out.put(fromNewest(age).yaw);
+  }
+}
+
+void PoseHistory::restore(BlobReader& in) {
+  const int count = in.get<int>();
+  size_ = next_ = 0;
+  for (int i = 0; i < count; ++i) {
+    Entry entry;
+    entry.time = simTimeFromNs(in.get<std::int64_t>());
+    in.getDoubles(entry.p_WK_W.data(), 2);
+    entry.yaw = in.get<double>();
+    add(entry);
+  }
+}
+
+double PoseRows::chiSquare(const TangentMatrix& covariance) const noexcept {
+  const Matrix3 S = H * covariance * H.transpose() + Matrix3::Identity();
+  return y.dot(Vector3(Eigen::LLT<Matrix3>(S).solve(y)));
+}
+
+PoseRows poseRows(const FilterState& x, const PoseHistory::Entry& then,
+                  const PoseHistory::Entry& now, const Vector3& pose_W,
+                  const ExternalPoseSettings& settings) noexcept {
+  const double sp = 1 / settings.position_sigma_m, sy = 1 / settings.yaw_sigma_rad;
+  const Eigen::Vector2d covered = now.p_WK_W - then.p_WK_W;
+  const double yaw_change = now.yaw - then.yaw;
+  const Vector3 ypr = yawPitchRollFromRotation(x.R_WB);
+  const Eigen::RowVector3d yaw_by_attitude = eulerRateMatrix(ypr[1], ypr[2]).row(0);
+
+  PoseRows rows;
+  rows.y << sp * (x.p_WK_W - covered - pose_W.head<2>()),
+      sy * unwrapped(now.yaw - yaw_change - pose_W[2], 0.0);
+  rows.H.block<2, 2>(0, kTanPosition).diagonal().setConstant(sp);
+  // A yaw error d turns what was covered by z x covered d.
+  rows.H.block<1, 3>(0, kTanAttitude) = sp * covered.y() * yaw_by_attitude;
+  rows.H.block<1, 3>(1, kTanAttitude) = -sp * covered.x() * yaw_by_attitude;
+  rows.H.block<1, 3>(2, kTanAttitude) = sy * yaw_by_attitude;
+  return rows;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,142 @@
+#include "estimator/information_filter.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+
+namespace ballbot {
+namespace {
+
+constexpr double kDoubtTilt = 10 * 3.14159265358979323846 / 180;  // [rad]
+constexpr double kDoubtVelocity = 0.5;                            // [m/s]
+constexpr double kDoubtOmega = 1.0;                               // [rad/s]
+
+}  // namespace
+
+InformationFilter::InformationFilter(const RobotParameters& robot, const FilterNoise& noise,
+                                     const GateSettings& gate, double accel_bias_sigma,
+                                     int iterations)
+    : model_(robot, noise),
+      gate_settings_(gate),
+      accel_bias_sigma_(accel_bias_sigma),
+      iterations_(iterations),
+      gate_(gate) {}
+
+void InformationFilter::initialise(const FilterState& x,
+                                   const TangentMatrix& information) noexcept {
+  x_ = x;
+  information_ = information;
+  covariance_ = covarianceFrom(information_);
+  smooth_accel_ = {};
+  accel_W_.setZero();
+  gate_.forget();
+}
+
+void InformationFilter::step(const IntervalMeasurement& measured,
+                             RejectionCounts& counts) noexcept {
+  IntervalMeasurement m = measured;
+  m.smooth_accel_W = smooth_accel_.value();
+  std::array<bool, kWheelCount> use = gate_.usable(m.has_wheel);
+  FilterState next = model_.predict(x_, m);
+
+  bool solved = solveWithoutOutliers(m, next, use, counts);
+  for (int i = 1; solved && i < iterations_; ++i) {
+    next = next.plus(update_.delta());
+    model_.evaluate(x_, next, m, residuals_);
+    solved = update_.solve(information_, residuals_, use);
+  }
+  if (!solved) {
+    counts.add(Rejection::kUpdateFailed);
+    x_ = model_.predict(x_, m);
+    doubt();
+    return;
+  }
+  next = next.plus(update_.delta());
+  accel_W_ = (next.v_WK_W - x_.v_WK_W) / m.h;
+  smooth_accel_.add(accel_W_, m.h);
+  x_ = next;
+  information_ = update_.information();
+  covariance_ = update_.covariance();
+  nis_ = update_.chiSquare();
+  nis_degrees_ = static_cast<int>(std::count(use.begin(), use.end(), true)) + (m.has_accel ? 1 : 0);
+
+  if (gate_.doubtsState()) {
+    counts.add(Rejection::kStateDoubted);
+    doubt();
+  }
+}
+
+bool InformationFilter::solveWithoutOutliers(IntervalMeasurement& m, FilterState& next,
+                                             std::array<bool, kWheelCount>& use,
+                                             RejectionCounts& counts) noexcept {
+  model_.evaluate(x_, next, m, residuals_);
+  if (!update_.solve(information_, residuals_, use)) return false;
+  for (int i = gate_.worstOutlier(update_, use); i >= 0; i = gate_.worstOutlier(update_, use)) {
+    use[static_cast<std::size_t>(i)] = false;
+    if (!update_.solve(information_, residuals_, use)) return false;
+  }
+  if (m.has_accel && update_.chiSquare() > gate_settings_.chi_square_limit) {
+    counts.add(Rejection::kAccelInconsistent);
+    m.has_accel = false;
+    next = model_.predict(x_, m);
+    model_.evaluate(x_, next, m, residuals_);
+    if (!update_.solve(information_, residuals_, use)) return false;
+  }
+  gate_.settle(update_, m, use, counts);
+  return true;
+}
+
+void InformationFilter::doubt() noexcept {
+  gate_.forget();
+  // The bias has taken in part of what was wrong with the tilt.
+  x_.accel_bias.setZero();
+  covariance_.middleRows<3>(kTanAccelBias).setZero();
+  covariance_.middleCols<3>(kTanAccelBias).setZero();
+  TangentMatrix extra = TangentMatrix::Zero();
+  extra.diagonal().segment<3>(kTanAccelBias).setConstant(accel_bias_sigma_ * accel_bias_sigma_);
+  const Vector3 up_B = x_.R_WB.transpose() * Vector3::UnitZ();
+  extra.block<3, 3>(kTanAttitude, kTanAttitude) =
+      kDoubtTilt * kDoubtTilt * (Matrix3::Identity() - up_B * up_B.transpose());
+  extra.diagonal().segment<2>(kTanVelocity).setConstant(kDoubtVelocity * kDoubtVelocity);
+  extra.diagonal().segment<3>(kTanOmega).setConstant(kDoubtOmega * kDoubtOmega);
+  relax(extra);
+}
+
+void InformationFilter::addRows(const Eigen::Matrix<double, 3, kTangentDim>& H,
+                                const Vector3& y) noexcept {
+  const TangentMatrix information = information_ + H.transpose().lazyProduct(H);
+  const Eigen::LLT<TangentMatrix> llt(information);
+  if (llt.info() != Eigen::Success) return;
+  x_ = x_.plus(-llt.solve(TangentVector(H.transpose() * y)));
+  information_ = information;
+  covariance_ = llt.solve(TangentMatrix::Identity());
+}
+
+void InformationFilter::relax(const TangentMatrix& extra_covariance) noexcept {
+  covariance_ += extra_covariance;
+  information_ = covarianceFrom(covariance_);
+}
+
+void InformationFilter::save(BlobWriter& out) const {
+  x_.save(out);
+  out.putDoubles(information_.data(), kTangentDim * kTangentDim);
+  out.putDoubles(covariance_.data(), kTangentDim * kTangentDim);
+  smooth_accel_.save(out);
+  out.putDoubles(accel_W_.data(), 2);
+  gate_.save(out);
+  out.put(nis_);
+  out.put(nis_degrees_);
+}
+
+void InformationFilter::restore(BlobReader& in) {
+  x_.restore(in);
+  in.getDoubles(information_.data(), kTangentDim * kTangentDim);
+  in.getDoubles(covariance_.data(), kTangentDim * kTangentDim);
+  smooth_accel_.restore(in);
+  in.getDoubles(accel_W_.data(), 2);
+  gate_.restore(in);
+  nis_ = in.get<double>();
+  nis_degrees_ = in.get<int>();
+}
+
+}  // namespace ballbot

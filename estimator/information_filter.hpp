@@ -1,0 +1,67 @@
+#pragma once
+
+#include "estimator/outlier_gate.hpp"
+#include "estimator/smooth_acceleration.hpp"
+
+namespace ballbot {
+
+/// The recursion of the two-state implicit filter, without clocks, frames and queues: from the
+/// state and its information at t_k-1 and the measurements in between to those at t_k.
+/// Free of allocation; for the control step.
+class InformationFilter {
+ public:
+  /// @param accel_bias_sigma turn-on bias of the accelerometer [m/s^2]
+  /// @param iterations per step, at least 2: with one, the linearisation at the old velocity makes
+  /// up information about yaw.
+  InformationFilter(const RobotParameters& robot, const FilterNoise& noise,
+                    const GateSettings& gate, double accel_bias_sigma, int iterations);
+
+  void initialise(const FilterState& x, const TangentMatrix& information) noexcept;
+
+  /// One interval. Counts what it leaves out. If nothing usable comes out the state stays, moved
+  /// on by the inertial measurement, with relaxed information.
+  void step(const IntervalMeasurement& m, RejectionCounts& counts) noexcept;
+
+  /// Measurement of the state alone, in rows of unit variance: 0 = y + H dx.
+  void addRows(const Eigen::Matrix<double, 3, kTangentDim>& H, const Vector3& y) noexcept;
+  /// Adds to the covariance: what was known becomes less certain.
+  void relax(const TangentMatrix& extra_covariance) noexcept;
+
+  const FilterState& state() const { return x_; }
+  const TangentMatrix& information() const { return information_; }
+  const TangentMatrix& covariance() const { return covariance_; }
+  /// Acceleration of the ball centre in W over the last interval [m/s^2].
+  const Eigen::Vector2d& acceleration() const { return accel_W_; }
+
+  /// Chi-square of the last step and its degrees of freedom, for the innovation test.
+  double nis() const { return nis_; }
+  int nisDegrees() const { return nis_degrees_; }
+
+  void save(BlobWriter& out) const;
+  void restore(BlobReader& in);
+
+ private:
+  bool solveWithoutOutliers(IntervalMeasurement& m, FilterState& next,
+                            std::array<bool, kWheelCount>& use, RejectionCounts& counts) noexcept;
+  /// The state fits no measurement: forgets what it knew of tilt, velocity and accelerometer bias.
+  /// Position and yaw, which no measurement tells, are left alone.
+  void doubt() noexcept;
+
+  ResidualModel model_;
+  GateSettings gate_settings_;
+  double accel_bias_sigma_;  ///< [m/s^2]
+  int iterations_;
+  Residuals residuals_;       ///< workspace
+  InformationUpdate update_;  ///< workspace
+
+  FilterState x_;
+  TangentMatrix information_ = TangentMatrix::Identity();
+  TangentMatrix covariance_ = TangentMatrix::Identity();
+  SmoothAcceleration smooth_accel_;
+  Eigen::Vector2d accel_W_ = Eigen::Vector2d::Zero();
+  WheelGate gate_;
+  double nis_ = 0;
+  int nis_degrees_ = 0;
+};
+
+}  // namespace ballbot

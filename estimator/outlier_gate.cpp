@@ -1,0 +1,112 @@
+#include "estimator/outlier_gate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ballbot {
+namespace {
+
+constexpr double kMeanGain = 1.0 / 20;
+constexpr int kStandingLong =
+    8;  // intervals of 2.5 ms: at 0.02 rad/s an encoder of 0.025 deg moves
+
+}  // namespace
+
+bool SpikeGate::accepts(const Vector3& sample) noexcept {
+  const bool ok =
+      !started_ || (sample - accepted_).norm() < jump_ || (sample - last_).norm() < jump_;
+  last_ = sample;
+  if (ok) accepted_ = sample;
+  started_ = true;
+  return ok;
+}
+
+void SpikeGate::save(BlobWriter& out) const {
+  out.put(started_);
+  out.putDoubles(accepted_.data(), 3);
+  out.putDoubles(last_.data(), 3);
+}
+
+void SpikeGate::restore(BlobReader& in) {
+  started_ = in.get<bool>();
+  in.getDoubles(accepted_.data(), 3);
+  in.getDoubles(last_.data(), 3);
+}
+
+std::array<bool, kWheelCount> WheelGate::usable(
+    const std::array<bool, kWheelCount>& measured) const noexcept {
+  std::array<bool, kWheelCount> use = measured;
+  for (std::size_t i = 0; i < kWheelCount; ++i) use[i] = use[i] && !wheels_[i].suspended;
+  return use;
+}
+
+int WheelGate::worstOutlier(const InformationUpdate& solution,
+                            const std::array<bool, kWheelCount>& use) const noexcept {
+  int worst = -1;
+  double size = settings_.wheel_gate_sigma;
+  for (int i = 0; i < kWheelCount; ++i) {
+    if (!use[static_cast<std::size_t>(i)]) continue;
+    const double off = std::abs(solution.standardizedWheel(i));
+    if (off > size) {
+      size = off;
+      worst = i;
+    }
+  }
+  return worst;
+}
+
+void WheelGate::settle(const InformationUpdate& solution, const IntervalMeasurement& m,
+                       const std::array<bool, kWheelCount>& used,
+                       RejectionCounts& counts) noexcept {
+  int measured = 0, refused = 0;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    measured += m.has_wheel[i] ? 1 : 0;
+    refused += m.has_wheel[i] && !used[i] ? 1 : 0;
+  }
+  for (int i = 0; i < kWheelCount; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (!m.has_wheel[at]) continue;
+    Wheel& wheel = wheels_[at];
+    wheel.standing = m.wheel_increment[i] == 0 ? wheel.standing + 1 : 0;
+    const double limit = settings_.wheel_gate_sigma;
+    const double off = std::clamp(solution.standardizedWheel(i), -limit, limit);
+    wheel.mean += kMeanGain * (off - wheel.mean);
+    if (!used[at]) {
+      const bool stuck = refused == 1 && wheel.standing >= kStandingLong;
+      counts.add(stuck             ? Rejection::kWheel1Stuck
+                 : wheel.suspended ? Rejection::kWheel1Slip
+                                   : Rejection::kWheel1Outlier,
+                 i);
+    }
+    const double threshold = settings_.wheel_slip_sigma * (wheel.suspended ? 0.5 : 1.0);
+    wheel.suspended = std::abs(wheel.mean) > threshold;
+  }
+  if (measured > 0) refused_s_ = refused >= 2 ? refused_s_ + m.h : 0.0;
+}
+
+bool WheelGate::doubtsState() const noexcept { return refused_s_ > settings_.state_doubt_after_s; }
+
+void WheelGate::forget() noexcept {
+  wheels_ = {};
+  refused_s_ = 0;
+}
+
+void WheelGate::save(BlobWriter& out) const {
+  for (const Wheel& wheel : wheels_) {
+    out.put(wheel.mean);
+    out.put(wheel.suspended);
+    out.put(wheel.standing);
+  }
+  out.put(refused_s_);
+}
+
+void WheelGate::restore(BlobReader& in) {
+  for (Wheel& wheel : wheels_) {
+    wheel.mean = in.get<double>();
+    wheel.suspended = in.get<bool>();
+    wheel.standing = in.get<int>();
+  }
+  refused_s_ = in.get<double>();
+}
+
+}  // namespace ballbot

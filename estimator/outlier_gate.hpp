@@ -1,0 +1,76 @@
+#pragma once
+
+#include "estimator/information_update.hpp"
+#include "estimator/rejections.hpp"
+
+namespace ballbot {
+
+struct GateSettings {
+  /// A wheel increment further off than this is refused [standard deviations].
+  double wheel_gate_sigma = 5;
+  /// A wheel whose residual, averaged over 20 intervals, is further off than this is suspended
+  /// until that average has halved [standard deviations of one interval].
+  double wheel_slip_sigma = 1.2;
+  /// A jump between two inertial samples larger than this is a spike, unless the next one agrees.
+  double accel_jump_m_per_s2 = 2.0;
+  double gyro_jump_rad_per_s = 0.15;
+  /// Chi-square (4) above which the accelerometer is left out of an update.
+  double chi_square_limit = 40;
+  /// Two wheels or more refused for so long: the state is at fault, not the wheels [s].
+  double state_doubt_after_s = 0.05;
+};
+
+/// A sample that jumps from the last accepted one is refused once; if the next agrees with it, the
+/// jump was real. So a spike never passes and a true step costs one sample.
+class SpikeGate {
+ public:
+  explicit SpikeGate(double jump) : jump_(jump) {}
+  bool accepts(const Vector3& sample) noexcept;
+
+  void save(BlobWriter& out) const;
+  void restore(BlobReader& in);
+
+ private:
+  double jump_;
+  bool started_ = false;
+  Vector3 accepted_ = Vector3::Zero();
+  Vector3 last_ = Vector3::Zero();
+};
+
+/// Decides which wheels an update may use. Residuals are judged in standard deviations of what the
+/// inertial sensors, the other wheels and the past say (Baarda's data snooping). Says what it
+/// refused and why. Free of allocation; for the control step.
+class WheelGate {
+ public:
+  explicit WheelGate(const GateSettings& settings) : settings_(settings) {}
+
+  /// Wheels to begin an update with: those measured and not suspended.
+  std::array<bool, kWheelCount> usable(
+      const std::array<bool, kWheelCount>& measured) const noexcept;
+  /// The worst of the wheels in use if it is an outlier in this solution, otherwise -1.
+  int worstOutlier(const InformationUpdate& solution,
+                   const std::array<bool, kWheelCount>& use) const noexcept;
+  /// Learns from the solution with which the outliers were settled, and counts.
+  void settle(const InformationUpdate& solution, const IntervalMeasurement& m,
+              const std::array<bool, kWheelCount>& used, RejectionCounts& counts) noexcept;
+
+  /// More than one wheel has been refused for longer than the settings allow. One faulty wheel is a
+  /// faulty wheel; several at once are a state that fits nothing.
+  bool doubtsState() const noexcept;
+  void forget() noexcept;
+
+  void save(BlobWriter& out) const;
+  void restore(BlobReader& in);
+
+ private:
+  struct Wheel {
+    double mean = 0;  ///< of the standardised residual
+    bool suspended = false;
+    int standing = 0;  ///< intervals without any motion so far
+  };
+  GateSettings settings_;
+  std::array<Wheel, kWheelCount> wheels_;
+  double refused_s_ = 0;  ///< more than one wheel refused since [s]
+};
+
+}  // namespace ballbot

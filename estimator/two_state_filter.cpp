@@ -1,0 +1,234 @@
+#include "estimator/two_state_filter.hpp"
+
+#include "estimator/attitude.hpp"
+#include "estimator/delay_compensation.hpp"
+#include "model/frames.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr const char* kBlobKind = "two_state_filter";
+constexpr std::uint32_t kBlobVersion = 1;
+constexpr int kPosesUntilBelieved = 10;
+
+}  // namespace
+
+TwoStateFilter::TwoStateFilter(const RobotParameters& robot, const TwoStateSettings& settings)
+    : settings_(settings),
+      gravity_(robot.gravity),
+      arm_(settings.arm_rate_time_constant_s),
+      filter_(robot, settings.noise, settings.gate, settings.initial.accel_bias,
+              settings.iterations),
+      accel_gate_(settings.gate.accel_jump_m_per_s2),
+      gyro_gate_(settings.gate.gyro_jump_rad_per_s) {
+  align(SensorFrame{});
+}
+
+void TwoStateFilter::update(const SensorFrame& frame, bool at_rest) noexcept {
+  if (!joints_.empty() && frame.time < joints_.newestTime()) {
+    counts_.add(Rejection::kFrameLate);
+    return;
+  }
+  arm_.update(frame);
+  if (frame.joint_angle.allFinite()) {
+    joints_.add(frame.time, frame.joint_angle);
+  } else {
+    counts_.add(Rejection::kNotFinite);
+  }
+  released_ = released_ || !at_rest;
+  if (frame.imu_count != imu_count_) {
+    imu_count_ = frame.imu_count;
+    takeImu(frame);
+  }
+  // A sample that does not come must not hold up the filter.
+  while (running_ && frame.time - time_ > imu_period_ + settings_.imu_wait) {
+    stepTo(time_ + imu_period_, nullptr);
+  }
+  if (settings_.use_external_pose && frame.pose_count != pose_count_) {
+    pose_count_ = frame.pose_count;
+    if (running_) takePose(frame);
+  }
+}
+
+void TwoStateFilter::takeImu(const SensorFrame& frame) noexcept {
+  if (!frame.accel_B.allFinite() || !frame.gyro_WB_B.allFinite()) {
+    counts_.add(Rejection::kNotFinite);
+    return;
+  }
+  if (!running_) {
+    if (!released_ || alignment_.samples() == 0) align(frame);
+    if (!released_) return;
+    release();
+    if (frame.imu_time <= time_) return;
+  }
+  if (frame.imu_time <= time_) {
+    counts_.add(Rejection::kImuLate);
+    return;
+  }
+  // The sample tells about the last period only; what is missing before it is gone through without.
+  while (frame.imu_time - time_ > imu_period_ + imu_period_ / 2) {
+    stepTo(time_ + imu_period_, nullptr);
+  }
+  stepTo(frame.imu_time, &frame);
+}
+
+void TwoStateFilter::align(const SensorFrame& frame) noexcept {
+  if (frame.imu_count > 0) {
+    if (alignment_.samples() == 0) {
+      first_imu_count_ = frame.imu_count;
+      first_imu_time_ = frame.imu_time;
+    } else if (frame.imu_count > first_imu_count_ && frame.imu_time > first_imu_time_) {
+      imu_period_ = (frame.imu_time - first_imu_time_) / (frame.imu_count - first_imu_count_);
+    }
+    alignment_.add(frame.accel_B, frame.gyro_WB_B);
+    time_ = frame.imu_time;
+  }
+  const InitialEstimate initial = initialEstimate(
+      alignment_, !released_, settings_.initial, settings_.noise, toSeconds(imu_period_), gravity_);
+  filter_.initialise(initial.x, initial.information);
+}
+
+void TwoStateFilter::release() noexcept {
+  FilterState x = filter_.state();
+  const Vector3 ypr = yawPitchRollFromRotation(x.R_WB);
+  x.R_WB = rotationFromYawPitchRoll(0.0, ypr[1] + settings_.initial_tilt_error[0],
+                                    ypr[2] + settings_.initial_tilt_error[1]);
+  filter_.initialise(x, filter_.information());
+  running_ = true;
+  wheel_angle_known_ =
+      !joints_.empty() && joints_.oldestTime() <= time_ && time_ <= joints_.newestTime();
+  if (wheel_angle_known_) wheel_angle_ = joints_.at(time_).head<kWheelCount>();
+  tellPose();
+}
+
+void TwoStateFilter::stepTo(SimTime time, const SensorFrame* imu) noexcept {
+  IntervalMeasurement m;
+  m.h = toSeconds(time - time_);
+  if (imu == nullptr) {
+    counts_.add(Rejection::kImuMissing);
+  } else {
+    m.accel_B = imu->accel_B;
+    m.gyro_B = imu->gyro_WB_B;
+    m.has_accel = accel_gate_.accepts(m.accel_B);
+    m.has_gyro = gyro_gate_.accepts(m.gyro_B);
+    if (!m.has_accel) counts_.add(Rejection::kAccelSpike);
+    if (!m.has_gyro) counts_.add(Rejection::kGyroSpike);
+  }
+  const bool known =
+      !joints_.empty() && joints_.oldestTime() <= time && time <= joints_.newestTime();
+  const Vector3 angle = known ? Vector3(joints_.at(time).head<kWheelCount>()) : wheel_angle_;
+  if (known && wheel_angle_known_) {
+    m.has_wheel.fill(true);
+    m.wheel_increment = angle - wheel_angle_;
+  }
+  wheel_angle_ = angle;
+  wheel_angle_known_ = known;
+
+  filter_.step(m, counts_);
+  time_ = time;
+  tellPose();
+}
+
+void TwoStateFilter::tellPose() noexcept {
+  yaw_ = unwrapped(yawPitchRollFromRotation(filter_.state().R_WB)[0], yaw_);
+  poses_.add({time_, filter_.state().p_WK_W, yaw_});
+}
+
+void TwoStateFilter::takePose(const SensorFrame& frame) noexcept {
+  if (!frame.pose_W.allFinite()) {
+    counts_.add(Rejection::kNotFinite);
+    return;
+  }
+  const std::optional<PoseHistory::Entry> then = poses_.at(frame.pose_time);
+  if (!then) {
+    counts_.add(Rejection::kPoseLate);
+    return;
+  }
+  const PoseHistory::Entry now{time_, filter_.state().p_WK_W, yaw_};
+  const PoseRows rows = poseRows(filter_.state(), *then, now, frame.pose_W, settings_.pose);
+  if (rows.chiSquare(filter_.covariance()) > settings_.pose.chi_square_limit) {
+    counts_.add(Rejection::kPoseOutlier);
+    if (++poses_refused_ < kPosesUntilBelieved) return;
+    // So many agree against it: the estimate has drifted away further than it knows.
+    const Vector3 up_B = filter_.state().R_WB.transpose() * Vector3::UnitZ();
+    TangentMatrix doubt = TangentMatrix::Zero();
+    doubt.diagonal().segment<2>(kTanPosition).setConstant(1.0);
+    doubt.block<3, 3>(kTanAttitude, kTanAttitude) = up_B * up_B.transpose();
+    filter_.relax(doubt);
+  }
+  poses_refused_ = 0;
+  filter_.addRows(rows.H, rows.y);
+  yaw_ = unwrapped(yawPitchRollFromRotation(filter_.state().R_WB)[0], yaw_);
+  poses_.moveTo({time_, filter_.state().p_WK_W, yaw_});
+}
+
+StateEstimate TwoStateFilter::estimate(SimTime now) const noexcept {
+  const FilterState& x = filter_.state();
+  StateEstimate out;
+  out.time = now;
+  out.aligned = alignment_.samples() >= settings_.alignment_samples;
+  out.x = bringForward(x, filter_.acceleration(), yaw_, running_ ? now - time_ : SimDuration{0});
+  arm_.writeTo(now, out.x);
+
+  const TangentMatrix& P = filter_.covariance();
+  const Matrix3 attitude_W =
+      x.R_WB * P.block<3, 3>(kTanAttitude, kTanAttitude) * x.R_WB.transpose();
+  out.sigma << P.diagonal().segment<2>(kTanPosition), attitude_W.diagonal(),
+      P.diagonal().segment<5>(kTanVelocity);
+  out.sigma = out.sigma.cwiseMax(0.0).cwiseSqrt();
+  return out;
+}
+
+StateBlob TwoStateFilter::saveState() const {
+  BlobWriter out;
+  arm_.save(out);
+  joints_.save(out);
+  alignment_.save(out);
+  filter_.save(out);
+  accel_gate_.save(out);
+  gyro_gate_.save(out);
+  poses_.save(out);
+  counts_.save(out);
+  out.put(toNs(time_));
+  out.put(yaw_);
+  out.put(released_);
+  out.put(running_);
+  out.put(imu_count_);
+  out.put(pose_count_);
+  out.put(poses_refused_);
+  out.put(first_imu_count_);
+  out.put(toNs(first_imu_time_));
+  out.put(toNs(imu_period_));
+  out.putDoubles(wheel_angle_.data(), 3);
+  out.put(wheel_angle_known_);
+  return out.seal(kBlobKind, kBlobVersion);
+}
+
+void TwoStateFilter::restoreState(const StateBlob& blob) {
+  BlobReader in(blob, kBlobKind, kBlobVersion);
+  TwoStateFilter next = *this;  // so that a blob that does not fit leaves no trace
+  next.arm_.restore(in);
+  next.joints_.restore(in);
+  next.alignment_.restore(in);
+  next.filter_.restore(in);
+  next.accel_gate_.restore(in);
+  next.gyro_gate_.restore(in);
+  next.poses_.restore(in);
+  next.counts_.restore(in);
+  next.time_ = simTimeFromNs(in.get<std::int64_t>());
+  next.yaw_ = in.get<double>();
+  next.released_ = in.get<bool>();
+  next.running_ = in.get<bool>();
+  next.imu_count_ = in.get<std::int64_t>();
+  next.pose_count_ = in.get<std::int64_t>();
+  next.poses_refused_ = in.get<int>();
+  next.first_imu_count_ = in.get<std::int64_t>();
+  next.first_imu_time_ = simTimeFromNs(in.get<std::int64_t>());
+  next.imu_period_ = SimDuration{in.get<std::int64_t>()};
+  in.getDoubles(next.wheel_angle_.data(), 3);
+  next.wheel_angle_known_ = in.get<bool>();
+  in.finish();
+  *this = next;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "estimator/arm_sensing.hpp"
+#include "estimator/estimator.hpp"
+#include "estimator/information_filter.hpp"
+#include "estimator/joint_history.hpp"
+#include "estimator/two_state_settings.hpp"
+
+namespace ballbot {
+
+/// The estimator of the robot: a two-state implicit filter on the intervals between inertial
+/// samples. Here live time and what can go wrong with it: samples that are late, missing or
+/// spoiled, encoders at another rate, poses from long ago. The equations are in residuals.hpp, the
+/// algebra in information_update.hpp, the judgement in outlier_gate.hpp.
+///
+/// While held (`at_rest`) tilt and gyroscope bias are aligned and px = py = yaw = 0; with the
+/// release the filter starts, and rest has no meaning of its own any more.
+class TwoStateFilter final : public Estimator {
+ public:
+  TwoStateFilter(const RobotParameters& robot, const TwoStateSettings& settings);
+
+  void update(const SensorFrame& frame, bool at_rest) noexcept override;
+  StateEstimate estimate(SimTime now) const noexcept override;
+  RejectionCounts rejections() const noexcept override { return counts_; }
+  StateBlob saveState() const override;
+  void restoreState(const StateBlob& blob) override;
+
+  /// The state at its own time, the last inertial sample, with its covariance.
+  SimTime stateTime() const { return time_; }
+  const FilterState& state() const { return filter_.state(); }
+  const TangentMatrix& covariance() const { return filter_.covariance(); }
+  /// Chi-square of the last update, with its degrees of freedom.
+  double nis() const { return filter_.nis(); }
+  int nisDegrees() const { return filter_.nisDegrees(); }
+
+ private:
+  void takeImu(const SensorFrame& frame) noexcept;
+  void align(const SensorFrame& frame) noexcept;
+  void release() noexcept;
+  void stepTo(SimTime time, const SensorFrame* imu) noexcept;
+  void takePose(const SensorFrame& frame) noexcept;
+  void tellPose() noexcept;
+
+  TwoStateSettings settings_;
+  double gravity_;  ///< [m/s^2]
+  ArmSensing arm_;
+  JointHistory joints_;
+  RestAlignment alignment_;
+  InformationFilter filter_;
+  SpikeGate accel_gate_, gyro_gate_;
+  PoseHistory poses_;
+  RejectionCounts counts_;
+
+  SimTime time_{};         ///< of the filter's state
+  double yaw_ = 0;         ///< continuous, of the filter's state [rad]
+  bool released_ = false;  ///< no longer held
+  bool running_ = false;   ///< released, and the filter has a state to start from
+  std::int64_t imu_count_ = 0, pose_count_ = 0;
+  int poses_refused_ = 0;  ///< in a row
+  std::int64_t first_imu_count_ = 0;
+  SimTime first_imu_time_{};
+  SimDuration imu_period_{2'500'000};      ///< until rest has shown another
+  Vector3 wheel_angle_ = Vector3::Zero();  ///< at time_ [rad]
+  bool wheel_angle_known_ = false;
+};
+
+}  // namespace ballbot
