@@ -73,7 +73,8 @@ struct JointAcceleration {
   JointVector rotor = JointVector::Zero();
 };
 
-/// Where a body is and how it moves, of its origin.
+/// Where a body is and how it moves, of its origin. The ball's orientation is not followed: its
+/// axes are those of W.
 struct BodyMotion {
   Vector3 p_WL = Vector3::Zero();
   Matrix3 R_WL = Matrix3::Identity();

@@ -44,6 +44,7 @@ std::array<BodyInertia, 1 + kArmJointCount> bodiesOf(const RobotParameters& robo
 /// one pass per column and more time than everything else together.
 ///
 /// y = (q, u of Simbody | wheel angles | rotor angles, rotor rates, both behind the gear).
+template <bool kBallSpin>
 class ReducedMultibody final : public Multibody {
  public:
   ReducedMultibody(const RobotParameters& robot, const MultibodyOptions& options)
@@ -86,7 +87,8 @@ class ReducedMultibody final : public Multibody {
     JointMotion& m = joints_;
     m.angle.head<kWheelCount>() = Eigen::Map<const Vector3>(y + wheelAngles());
     m.angle.tail<kArmJointCount>() = Eigen::Map<const Vector3>(y + tree_.armQOffset());
-    m.velocity.head<kWheelCount>() = rolling_.rates(tree_.base().R_WB, u);
+    m.velocity.head<kWheelCount>() =
+        rows_ * Eigen::Map<const Eigen::Matrix<double, kPlatform, 1>>(u);
     m.velocity.tail<kArmJointCount>() = Eigen::Map<const Vector3>(u + tree_.armUOffset());
     m.rotor_angle = m.angle;
     m.rotor_velocity = m.velocity;
@@ -113,15 +115,15 @@ class ReducedMultibody final : public Multibody {
     // M udot + h - f at udot = 0, of the bodies that Simbody knows.
     tree_.matter.calcResidualForceIgnoringConstraints(tree_.state, tree_.mobilityForces(),
                                                       tree_.bodyForces(), no_udot_, residual_);
-    PlatformVector force = -Eigen::Map<const Eigen::VectorXd>(&residual_[0], nu_);
+    Vector force = -Eigen::Map<const Vector>(&residual_[0]);
     assembleMass();
     applyWheels(loads, force);
     mass_.llt().solveInPlace(force);
-    const PlatformVector& udot = force;
+    const Vector& udot = force;
 
     const SimTK::Vector& qdot = tree_.state.getQDot();
     std::copy_n(&qdot[0], nq_, ydot);
-    std::copy_n(udot.data(), nu_, ydot + nq_);
+    Eigen::Map<Vector>(ydot + nq_) = udot;
     Eigen::Map<Vector3>(ydot + wheelAngles()) = joints_.velocity.head<kWheelCount>();
     if (options_.rotors) rotorDerivative(loads, udot, ydot);
   }
@@ -166,10 +168,12 @@ class ReducedMultibody final : public Multibody {
   }
 
  private:
-  static constexpr int kMaxDim = kVelocityDim + 1;
-  using PlatformVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxDim, 1>;
-  using PlatformMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxDim, kMaxDim>;
-  using BodyJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxDim>;
+  /// Of u = (vx, vy, [spin], w_WB_W | arm rates): the part that turns wheels, and all of it.
+  static constexpr int kOmega = kBallSpin ? 3 : 2;
+  static constexpr int kPlatform = kOmega + 3;
+  static constexpr int kDim = kPlatform + kArmJointCount;
+  using Vector = Eigen::Matrix<double, kDim, 1>;
+  using BodyJacobian = Eigen::Matrix<double, 3, kDim>;
 
   double reflectedInertia(int i) const {
     return options_.gear_ratio[i] * options_.gear_ratio[i] * options_.rotor_inertia[i];
@@ -189,21 +193,20 @@ class ReducedMultibody final : public Multibody {
 
   /// M = sum over bodies of m Jv^T Jv + Jw^T I Jw, J of the centre of mass.
   void assembleMass() {
-    mass_.setZero(nu_, nu_);
+    mass_.setZero();
     mass_(0, 0) = mass_(1, 1) = rolling_mass_;
-    if (options_.ball_spin) mass_(2, 2) = ball_inertia_;
-    const int w = tree_.omegaOffset();
-    BodyJacobian Jw = BodyJacobian::Zero(3, nu_), Jv = BodyJacobian::Zero(3, nu_);
-    Jw.middleCols<3>(w).setIdentity();
+    if (kBallSpin) mass_(2, 2) = ball_inertia_;
+    BodyJacobian Jw = BodyJacobian::Zero(), Jv = BodyJacobian::Zero();
+    Jw.template middleCols<3>(kOmega).setIdentity();
     Jv(0, 0) = Jv(1, 1) = 1;
     for (int b = 0; b <= kArmJointCount; ++b) {
       const BodyMotion& m = tree_.body(static_cast<BodyIndex>(kBaseBody + b));
-      if (b > 0) Jw.col(tree_.armUOffset() + b - 1) = axis_W_[kWheelCount + b - 1];
+      if (b > 0) Jw.col(kPlatform + b - 1) = axis_W_[kWheelCount + b - 1];
       const Vector3 p = m.p_WL + m.R_WL * bodies_[b].p_LLcm_L;
-      Jv.middleCols<3>(w) = -skew(p - tree_.base().p_WK);
+      Jv.template middleCols<3>(kOmega) = -skew(p - tree_.base().p_WK);
       for (int j = 1; j <= b; ++j) {
         const Vector3& origin = tree_.body(static_cast<BodyIndex>(kBaseBody + j)).p_WL;
-        Jv.col(tree_.armUOffset() + j - 1) = axis_W_[kWheelCount + j - 1].cross(p - origin);
+        Jv.col(kPlatform + j - 1) = axis_W_[kWheelCount + j - 1].cross(p - origin);
       }
       const Matrix3 I = m.R_WL * bodies_[b].I_LLcm_L * m.R_WL.transpose();
       const BodyJacobian IJw = I * Jw;
@@ -212,30 +215,30 @@ class ReducedMultibody final : public Multibody {
     }
   }
 
-  void applyWheels(const MultibodyLoads& loads, PlatformVector& force) {
-    const int n = static_cast<int>(rows_.cols()), w = tree_.omegaOffset();
+  void applyWheels(const MultibodyLoads& loads, Vector& force) {
     const Vector3 bias = rolling_.bias(tree_.base());
     for (int i = 0; i < kWheelCount; ++i) {
       const Vector3& d = axis_W_[i];
-      PlatformVector row = rows_.row(i).transpose();
-      force.head(n) += loads.joint_torque[i] * row;
-      row.segment<3>(w) += d;  // now the row of the wheel's spin in W
-      force.head(n) -= wheel_inertia_ * bias[i] * row;
-      force.segment<3>(w) -= wheel_inertia_ * wheel_spin_[i] * tree_.base().w_WB_W.cross(d);
-      mass_.topLeftCorner(n, n).noalias() += wheel_inertia_ * row.lazyProduct(row.transpose());
+      Eigen::Matrix<double, kPlatform, 1> row = rows_.row(i).transpose();
+      force.template head<kPlatform>() += loads.joint_torque[i] * row;
+      row.template tail<3>() += d;  // now the row of the wheel's spin in W
+      force.template head<kPlatform>() -= wheel_inertia_ * bias[i] * row;
+      force.template segment<3>(kOmega) -=
+          wheel_inertia_ * wheel_spin_[i] * tree_.base().w_WB_W.cross(d);
+      mass_.template topLeftCorner<kPlatform, kPlatform>() +=
+          wheel_inertia_ * row * row.transpose();
     }
   }
 
   /// J (N ddtheta + d . alpha_carrier) = shaft torque.
-  void rotorDerivative(const MultibodyLoads& loads, const PlatformVector& udot,
-                       double* ydot) const {
-    Vector3 alpha = udot.segment<3>(tree_.omegaOffset());  // of the carrier, link by link
+  void rotorDerivative(const MultibodyLoads& loads, const Vector& udot, double* ydot) const {
+    Vector3 alpha = udot.template segment<3>(kOmega);  // of the carrier, link by link
     for (int i = 0; i < kJointCount; ++i) {
       ydot[rotorAngles() + i] = joints_.rotor_velocity[i];
       ydot[rotorRates() + i] = loads.rotor_torque[i] / reflectedInertia(i) -
                                axis_W_[i].dot(alpha) / options_.gear_ratio[i];
       if (i < kWheelCount) continue;
-      alpha += udot[tree_.armUOffset() + i - kWheelCount] * axis_W_[i] +
+      alpha += udot[kPlatform + i - kWheelCount] * axis_W_[i] +
                joints_.velocity[i] * tree_.body(mounts_[i].parent).w_WL_W.cross(axis_W_[i]);
     }
   }
@@ -254,11 +257,11 @@ class ReducedMultibody final : public Multibody {
 
   // Of the current state:
   JointMotion joints_;
-  WheelRolling::Rows rows_;
+  Eigen::Matrix<double, kWheelCount, kPlatform> rows_;
   std::array<Vector3, kJointCount> axis_W_;
   JointVector wheel_spin_, rotor_spin_;  ///< about the axle, in W [rad/s]
 
-  PlatformMatrix mass_;
+  Eigen::Matrix<double, kDim, kDim> mass_;
   SimTK::Vector residual_;
   const SimTK::Vector no_udot_;
 };
@@ -267,7 +270,8 @@ class ReducedMultibody final : public Multibody {
 
 std::unique_ptr<Multibody> makeReducedMultibody(const RobotParameters& robot,
                                                 const MultibodyOptions& options) {
-  return std::make_unique<ReducedMultibody>(robot, options);
+  if (options.ball_spin) return std::make_unique<ReducedMultibody<true>>(robot, options);
+  return std::make_unique<ReducedMultibody<false>>(robot, options);
 }
 
 }  // namespace ballbot

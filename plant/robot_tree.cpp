@@ -137,13 +137,16 @@ void RobotTree::realize(const double* q, const double* u) {
   realized_ = false;  // in case the next line throws
   system.realize(state, SimTK::Stage::Velocity);
   realized_ = true;
-  for (int b = 0; b < kBodyCount; ++b) {
+  for (int b = kBaseBody; b < kBodyCount; ++b) {
     const SimTK::Transform& X = bodies_[b].getBodyTransform(state);
     const SpatialVec& V = bodies_[b].getBodyVelocity(state);
     motion_[b] = {toEigen(X.p()), toEigen(X.R()), toEigen(V[1]), toEigen(V[0])};
   }
   const BodyMotion& base = motion_[kBaseBody];
   base_motion_ = {base.p_WL, base.R_WL, base.v_WL_W, base.w_WL_W, ball_spin_ ? u[2] : 0};
+  motion_[kBallBody].p_WL = base.p_WL;
+  motion_[kBallBody].v_WL_W = base.v_WL_W;
+  motion_[kBallBody].w_WL_W = {-u[1] / ball_radius_, u[0] / ball_radius_, base_motion_.ball_spin};
 }
 
 void RobotTree::collectForces(const MultibodyLoads& loads) {

@@ -69,9 +69,6 @@ class RobotTree {
   int omegaOffset() const { return ball_spin_ ? 3 : 2; }
   int armQOffset() const { return quaternionOffset() + 4; }
   int armUOffset() const { return omegaOffset() + 3; }
-  /// Coordinates up to here move base and ball, those that make wheels turn.
-  int platformDim() const { return armUOffset(); }
-  bool ballSpin() const { return ball_spin_; }
 
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter;
