@@ -28,11 +28,13 @@ export async function startBrowser() {
   });
 }
 
-// Opens the example page of that kind. `complaints` lists what a page should never have: errors,
+// Opens the example page of that kind; `init` runs before its own program. `complaints` lists what a page should never have: errors,
 // warnings of the page itself, requests beyond the one file.
-export async function openReport(browser, kind, { width = 1280, height = 800, colorScheme = 'light' } = {}) {
+export async function openReport(browser, kind, options = {}) {
+  const { width = 1280, height = 800, colorScheme = 'light', init } = options;
   const context = await browser.newContext({ viewport: { width, height }, colorScheme });
   const page = await context.newPage();
+  if (init) await page.addInitScript(init);
   const url = pathToFileURL(join(pages, `${kind}.html`)).href;
   const complaints = [];
   page.on('pageerror', (error) => complaints.push(`error: ${error.stack}`));
@@ -77,7 +79,8 @@ export function windows(page) {
   return page.$$eval('.plot[data-window]', (nodes) => nodes.map((n) => n.dataset.window.split(',').map(Number)));
 }
 
-// The 3-D picture, reduced: how many different colours, and a sum that any change of it changes.
+// The 3-D picture, reduced to 160 x 160: how many different colours, a sum that any change of it
+// changes, how many red pixels and their mean distance from the left.
 export function picture(page) {
   return page.evaluate(async () => {
     const source = document.querySelector('.scene canvas');
@@ -89,12 +92,18 @@ export function picture(page) {
     const { data } = context.getImageData(0, 0, copy.width, copy.height);
     const colours = new Set();
     let sum = 0;
+    let red = 0;
+    let left = 0;
     for (let i = 0; i < data.length; i += 4) {
       const colour = (data[i] << 16) | (data[i + 1] << 8) | data[i + 2];
       colours.add(colour);
       sum = (sum * 31 + colour) % 2147483647;
+      if (data[i] > 60 && data[i] > 2.2 * data[i + 1] && data[i] > 2.2 * data[i + 2]) {
+        red++;
+        left += (i / 4) % copy.width;
+      }
     }
-    return { colours: colours.size, sum };
+    return { colours: colours.size, sum, red, redLeft: left / red };
   });
 }
 

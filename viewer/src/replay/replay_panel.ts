@@ -41,8 +41,10 @@ export function replayPanel(replay: Replay, timeline: Timeline): ReplayPanel {
   try {
     view = new ReplayView(replay, timeline);
   } catch (error) {
-    const text = `The 3-D replay needs WebGL 2, which this browser does not offer (${String(error)}).`;
-    return { root: element('div', { class: 'scene-panel' }, element('p', { class: 'notice' }, text)), view: null };
+    const reason = error instanceof Error ? error.message : String(error);
+    const text = `This browser cannot draw the 3-D replay, which needs WebGL 2: ${reason}`;
+    const notice = element('p', { class: 'notice' }, text);
+    return { root: element('div', { class: 'scene-panel' }, notice), view: null };
   }
   const root = element('div', { class: 'scene-panel' });
   const camera = element('select', { 'aria-label': 'View', title: 'View' });

@@ -67,6 +67,7 @@ export class ReplayView {
     scene.add(...this.objects, ...Object.values(this.layers));
 
     this.root.append(this.stage.renderer.domElement, this.labels);
+    this.stage.renderer.domElement.setAttribute('role', 'img');
     this.stage.renderer.domElement.setAttribute('aria-label', '3-D replay of the robot');
     this.stage.onRender(() => this.placeLabels());
     new ResizeObserver(() => this.fit()).observe(this.root);

@@ -10,6 +10,9 @@ const icons = {
 };
 const speeds = [0.1, 0.25, 0.5, 1, 2, 4];
 const sliderSteps = 10000;
+const hint =
+  'In a plot: click to go to that time, drag to zoom, double-click to see all. Keys: space plays, ' +
+  'arrows step.';
 
 // Play, pause, speed, a slider over the whole run with its phases and the plots' window, zoom.
 export class Transport {
@@ -62,6 +65,7 @@ export class Transport {
       element('div', { class: 'scrub' }, track, this.slider),
       this.now,
       element('div', { class: 'transport-tools' }, speed, zoomOut, zoomIn, this.resetZoom),
+      element('p', { class: 'hint' }, hint),
     );
     timeline.onTime(() => this.showTime());
     timeline.onWindow(() => this.showWindow());
