@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <Eigen/Cholesky>
-
 namespace ballbot {
 namespace {
 
@@ -25,8 +23,7 @@ InformationFilter::InformationFilter(const RobotParameters& robot, const FilterN
 void InformationFilter::initialise(const FilterState& x,
                                    const TangentMatrix& information) noexcept {
   x_ = x;
-  information_ = information;
-  covariance_ = covarianceFrom(information_);
+  setInformation(information);
   smooth_accel_ = {};
   accel_W_.setZero();
   gate_.forget();
@@ -56,7 +53,7 @@ void InformationFilter::step(const IntervalMeasurement& measured,
   smooth_accel_.add(accel_W_, m.h);
   x_ = next;
   information_ = update_.information();
-  covariance_ = update_.covariance();
+  covariance_root_ = update_.covarianceRoot();
   nis_ = update_.chiSquare();
   nis_degrees_ = static_cast<int>(std::count(use.begin(), use.end(), true)) + (m.has_accel ? 1 : 0);
 
@@ -90,37 +87,42 @@ void InformationFilter::doubt() noexcept {
   gate_.forget();
   // The bias has taken in part of what was wrong with the tilt.
   x_.accel_bias.setZero();
-  covariance_.middleRows<3>(kTanAccelBias).setZero();
-  covariance_.middleCols<3>(kTanAccelBias).setZero();
-  TangentMatrix extra = TangentMatrix::Zero();
-  extra.diagonal().segment<3>(kTanAccelBias).setConstant(accel_bias_sigma_ * accel_bias_sigma_);
+  TangentMatrix P = covariance();
+  P.middleRows<3>(kTanAccelBias).setZero();
+  P.middleCols<3>(kTanAccelBias).setZero();
+  P.diagonal().segment<3>(kTanAccelBias).setConstant(accel_bias_sigma_ * accel_bias_sigma_);
   const Vector3 up_B = x_.R_WB.transpose() * Vector3::UnitZ();
-  extra.block<3, 3>(kTanAttitude, kTanAttitude) =
+  P.block<3, 3>(kTanAttitude, kTanAttitude) +=
       kDoubtTilt * kDoubtTilt * (Matrix3::Identity() - up_B * up_B.transpose());
-  extra.diagonal().segment<2>(kTanVelocity).setConstant(kDoubtVelocity * kDoubtVelocity);
-  extra.diagonal().segment<3>(kTanOmega).setConstant(kDoubtOmega * kDoubtOmega);
-  relax(extra);
+  P.diagonal().segment<2>(kTanVelocity).array() += kDoubtVelocity * kDoubtVelocity;
+  P.diagonal().segment<3>(kTanOmega).array() += kDoubtOmega * kDoubtOmega;
+  setInformation(inverseSpd(P));
 }
 
 void InformationFilter::addRows(const Eigen::Matrix<double, 3, kTangentDim>& H,
                                 const Vector3& y) noexcept {
   const TangentMatrix information = information_ + H.transpose().lazyProduct(H);
-  const Eigen::LLT<TangentMatrix> llt(information);
-  if (llt.info() != Eigen::Success) return;
-  x_ = x_.plus(-llt.solve(TangentVector(H.transpose() * y)));
-  information_ = information;
-  covariance_ = llt.solve(TangentMatrix::Identity());
+  x_ = x_.plus(-(inverseSpd(information) * (H.transpose() * y)));
+  setInformation(information);
 }
 
 void InformationFilter::relax(const TangentMatrix& extra_covariance) noexcept {
-  covariance_ += extra_covariance;
-  information_ = covarianceFrom(covariance_);
+  setInformation(inverseSpd(covariance() + extra_covariance));
+}
+
+void InformationFilter::setInformation(const TangentMatrix& information) noexcept {
+  information_ = information;
+  covariance_root_ = inverseRoot(information);
+}
+
+TangentMatrix InformationFilter::covariance() const noexcept {
+  return covariance_root_ * covariance_root_.transpose();
 }
 
 void InformationFilter::save(BlobWriter& out) const {
   x_.save(out);
   out.putDoubles(information_.data(), kTangentDim * kTangentDim);
-  out.putDoubles(covariance_.data(), kTangentDim * kTangentDim);
+  out.putDoubles(covariance_root_.data(), kTangentDim * kTangentDim);
   smooth_accel_.save(out);
   out.putDoubles(accel_W_.data(), 2);
   gate_.save(out);
@@ -131,7 +133,7 @@ void InformationFilter::save(BlobWriter& out) const {
 void InformationFilter::restore(BlobReader& in) {
   x_.restore(in);
   in.getDoubles(information_.data(), kTangentDim * kTangentDim);
-  in.getDoubles(covariance_.data(), kTangentDim * kTangentDim);
+  in.getDoubles(covariance_root_.data(), kTangentDim * kTangentDim);
   smooth_accel_.restore(in);
   in.getDoubles(accel_W_.data(), 2);
   gate_.restore(in);

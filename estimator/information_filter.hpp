@@ -29,7 +29,9 @@ class InformationFilter {
 
   const FilterState& state() const { return x_; }
   const TangentMatrix& information() const { return information_; }
-  const TangentMatrix& covariance() const { return covariance_; }
+  TangentMatrix covariance() const noexcept;
+  /// Upper triangular C; the covariance is C C'.
+  const TangentMatrix& covarianceRoot() const { return covariance_root_; }
   /// Acceleration of the ball centre in W over the last interval [m/s^2].
   const Eigen::Vector2d& acceleration() const { return accel_W_; }
 
@@ -46,6 +48,7 @@ class InformationFilter {
   /// The state fits no measurement: forgets what it knew of tilt, velocity and accelerometer bias.
   /// Position and yaw, which no measurement tells, are left alone.
   void doubt() noexcept;
+  void setInformation(const TangentMatrix& information) noexcept;
 
   ResidualModel model_;
   GateSettings gate_settings_;
@@ -56,7 +59,7 @@ class InformationFilter {
 
   FilterState x_;
   TangentMatrix information_ = TangentMatrix::Identity();
-  TangentMatrix covariance_ = TangentMatrix::Identity();
+  TangentMatrix covariance_root_ = TangentMatrix::Identity();
   SmoothAcceleration smooth_accel_;
   Eigen::Vector2d accel_W_ = Eigen::Vector2d::Zero();
   WheelGate gate_;

@@ -34,21 +34,24 @@ class InformationUpdate {
   /// row counts or not.
   double standardizedWheel(int i) const noexcept;
 
-  /// Covariance of the new state.
-  TangentMatrix covariance() const noexcept;
+  /// Upper triangular root C of the new state's covariance, which is C C'.
+  TangentMatrix covarianceRoot() const noexcept;
 
  private:
   static constexpr int kRhs = 2 * kTangentDim;
   static constexpr int kDim = kRhs + 4;
 
   Eigen::Matrix<double, kDim, kDim> system_;
+  Eigen::Matrix<double, kDim, 1> inverse_pivot_;
   TangentMatrix information_ = TangentMatrix::Zero();
   TangentVector delta_ = TangentVector::Zero();
   std::array<bool, kWheelCount> use_wheel_{};
 };
 
-/// Inverse of a symmetric positive definite matrix, of which the lower half is read; zero where it
-/// is not positive definite.
-TangentMatrix covarianceFrom(const TangentMatrix& information) noexcept;
+/// Upper triangular C with C C' the inverse of a symmetric positive definite matrix, of which the
+/// lower half is read; zero where it is not positive definite.
+TangentMatrix inverseRoot(const TangentMatrix& spd) noexcept;
+/// The inverse itself.
+TangentMatrix inverseSpd(const TangentMatrix& spd) noexcept;
 
 }  // namespace ballbot

@@ -170,12 +170,11 @@ StateEstimate TwoStateFilter::estimate(SimTime now) const noexcept {
   out.x = bringForward(x, filter_.acceleration(), yaw_, running_ ? now - time_ : SimDuration{0});
   arm_.writeTo(now, out.x);
 
-  const TangentMatrix& P = filter_.covariance();
-  const Matrix3 attitude_W =
-      x.R_WB * P.block<3, 3>(kTanAttitude, kTanAttitude) * x.R_WB.transpose();
-  out.sigma << P.diagonal().segment<2>(kTanPosition), attitude_W.diagonal(),
-      P.diagonal().segment<5>(kTanVelocity);
-  out.sigma = out.sigma.cwiseMax(0.0).cwiseSqrt();
+  // Of the covariance C C' only the diagonal is wanted, for the attitude about the axes of W.
+  const TangentMatrix& C = filter_.covarianceRoot();
+  out.sigma << C.middleRows<2>(kTanPosition).rowwise().norm(),
+      (x.R_WB * C.middleRows<3>(kTanAttitude)).rowwise().norm(),
+      C.middleRows<5>(kTanVelocity).rowwise().norm();
   return out;
 }
 

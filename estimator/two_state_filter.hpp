@@ -28,7 +28,8 @@ class TwoStateFilter final : public Estimator {
   /// The state at its own time, the last inertial sample, with its covariance.
   SimTime stateTime() const { return time_; }
   const FilterState& state() const { return filter_.state(); }
-  const TangentMatrix& covariance() const { return filter_.covariance(); }
+  TangentMatrix covariance() const noexcept { return filter_.covariance(); }
+  const TangentMatrix& information() const { return filter_.information(); }
   /// Chi-square of the last update, with its degrees of freedom.
   double nis() const { return filter_.nis(); }
   int nisDegrees() const { return filter_.nisDegrees(); }

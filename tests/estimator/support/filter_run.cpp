@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "estimator/information_update.hpp"
-
 namespace ballbot::test {
 
 FilterState truthAsFilterState(const Truth& truth) {
@@ -49,7 +47,7 @@ RunErrors play(const FilterRun& run, RejectionCounts* counts) {
     velocity2 += velocity * velocity;
     e.tilt_max_deg = std::max(e.tilt_max_deg, tilt);
     e.velocity_max = std::max(e.velocity_max, velocity);
-    e.nees_mean += error.dot(covarianceFrom(filter.covariance()) * error);
+    e.nees_mean += error.dot(filter.information() * error);
     e.nis_mean += filter.nis();
     e.position_end = error.segment<2>(kTanPosition).norm();
     e.yaw_end_deg = std::abs(filter.estimate(frame.time).x[kYaw] - truth.motion.yaw_pitch_roll[0]) / kDeg;
