@@ -1,5 +1,6 @@
 #pragma once
 
+#include "controller/cost_terms.hpp"
 #include "core/state_blob.hpp"
 #include "core/time.hpp"
 #include "model/state.hpp"
@@ -24,6 +25,14 @@ struct PlanReport {
   double cost = 0;
   double step_length = 0;
   double constraint_violation = 0;
+  const char* status = "";        ///< in words, e.g. "improved", "no descent"
+  bool fallback = false;          ///< the law's simple stand-in is in force, for lack of a plan
+  double predicted_decrease = 0;  ///< of the cost, by the quadratic model
+  double regularisation = 0;      ///< added to the diagonal of the input Hessian
+  CostTerms terms;                ///< the cost by task and barrier
+  /// Wall-clock time of the phases, if the law was given a clock [ns]. Not for any record that has
+  /// to be the same twice.
+  std::int64_t approximation_ns = 0, riccati_ns = 0, line_search_ns = 0;
 };
 
 /// A balancing law: plans at its own period, is sampled at the tracker's.

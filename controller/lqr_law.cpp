@@ -79,13 +79,19 @@ PlanReport LqrLaw::plan(SimTime now, const StateVector& x,
   return report;
 }
 
+void LqrLaw::sampleOf(const Plan& plan, SimTime now, PolicySample& out) noexcept {
+  out = plan.at_stamp;
+  out.joint_position += toSeconds(now - plan.stamp) * out.joint_velocity;
+}
+
 void LqrLaw::sample(SimTime now, PolicySample& out) const noexcept {
-  out = active_.at_stamp;
-  out.joint_position += toSeconds(now - active_.stamp) * out.joint_velocity;
+  sampleOf(active_, now, out);
 }
 
 StateBlob LqrLaw::saveState() const {
   BlobWriter out;
+  out.putDoubles(config_.set_point.ball_position.data(), 2);
+  out.put(config_.set_point.yaw);
   for (const Plan* plan : {&planned_, &active_}) {
     out.put(toNs(plan->stamp));
     putPolicySample(out, plan->at_stamp);
@@ -96,11 +102,15 @@ StateBlob LqrLaw::saveState() const {
 void LqrLaw::restoreState(const StateBlob& blob) {
   BlobReader in(blob, kBlobKind, kBlobVersion);
   Plan planned, active;
+  Eigen::Vector2d ball_position;
+  in.getDoubles(ball_position.data(), 2);
+  const double yaw = in.get<double>();
   for (Plan* plan : {&planned, &active}) {
     plan->stamp = simTimeFromNs(in.get<std::int64_t>());
     getPolicySample(in, plan->at_stamp);
   }
   in.finish();
+  setGroundSetPoint(ball_position, yaw);
   planned_ = planned;
   active_ = active;
 }

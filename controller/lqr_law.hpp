@@ -36,11 +36,20 @@ class LqrLaw final : public ControlLaw {
 
   const LqrSolution& solution() const { return solution_; }
 
+  /// Moves the set-point in the plane, from the next plan on.
+  void setGroundSetPoint(const Eigen::Vector2d& ball_position, double yaw) noexcept {
+    config_.set_point.ball_position = ball_position;
+    config_.set_point.yaw = yaw;
+  }
+  /// As sample(), of the newest plan whether it was activated or not.
+  void samplePlan(SimTime now, PolicySample& out) const noexcept { sampleOf(planned_, now, out); }
+
  private:
   struct Plan {
     SimTime stamp{};
     PolicySample at_stamp;
   };
+  static void sampleOf(const Plan& plan, SimTime now, PolicySample& out) noexcept;
   Plan planFor(SimTime now, const StateVector& x, const JointVector& joint_angle) const noexcept;
 
   LqrLawConfig config_;

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+namespace ballbot {
+
+/// What a cost is made of: the tasks, then the barriers, then what stands for all that comes after
+/// the horizon.
+enum CostTerm : int {
+  kEndEffectorPositionCost,
+  kEndEffectorOrientationCost,
+  kEndEffectorTwistCost,
+  kBallPositionCost,
+  kYawCost,
+  kBallVelocityCost,
+  kBaseRateCost,
+  kArmPositionCost,
+  kArmRateCost,
+  kWheelTorqueCost,
+  kArmTorqueCost,
+  kContactForceCost,
+  kTorqueLimitCost,
+  kFrictionConeCost,
+  kArmPositionLimitCost,
+  kArmRateLimitCost,
+  kTiltLimitCost,
+  kTerminalCost,
+  kCostTermCount
+};
+
+/// Name of a term as it appears in records, e.g. "ee_position".
+const char* costTermName(CostTerm term);
+
+/// A cost split by term, and how far the worst inequality is violated, each in its own unit
+/// (N m, N, rad, rad/s); 0 if all hold.
+struct CostTerms {
+  std::array<double, kCostTermCount> value{};
+  double violation = 0;
+
+  double total() const {
+    double sum = 0;
+    for (double v : value) sum += v;
+    return sum;
+  }
+  CostTerms& operator+=(const CostTerms& other) {
+    for (int i = 0; i < kCostTermCount; ++i) value[i] += other.value[i];
+    violation = std::max(violation, other.violation);
+    return *this;
+  }
+};
+
+}  // namespace ballbot

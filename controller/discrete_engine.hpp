@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "controller/mpc_engine.hpp"
+#include "controller/whole_body_problem.hpp"
+
+namespace ballbot {
+
+/// SLQ on a fixed or graded grid of knots (SlqSolver, WholeBodyProblem): the fast default.
+/// NU = 9 plans contact forces; NU = 6 leaves them out.
+template <int NU>
+class DiscreteEngine final : public MpcEngine {
+ public:
+  DiscreteEngine(const RobotParameters& robot, const Constraints& constraints,
+                 const FrequencyShaping& shaping, const TerminalCost& terminal,
+                 const std::vector<double>& knots, std::shared_ptr<const TaskSchedule> schedule,
+                 const SlqOptions& options);
+
+  MpcPolicy emptyPolicy() const override;
+  SlqReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
+                  MpcPolicy& out) noexcept override;
+  double shift() const noexcept override { return solver_.shift(); }
+  void setShift(double shift) noexcept override { solver_.setShift(shift); }
+
+ private:
+  std::vector<double> knots_;
+  std::shared_ptr<const TaskSchedule> schedule_;
+  WholeBodyProblem<NU> problem_;
+  SlqSolver<kMpcStateDim, NU> solver_;
+};
+
+}  // namespace ballbot

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+#include "controller/mpc_planner.hpp"
+
+namespace ballbot {
+
+/// Whole-body MPC as a control law, solved where plan() is called: for runs in lockstep, where a
+/// plan's latency is a matter of configuration. If no plan was good for `fallback_after`, the LQR
+/// holds the robot where it is until plans succeed again.
+class MpcLaw final : public ControlLaw {
+ public:
+  MpcLaw(const RobotParameters& robot, const MpcConfig& config);
+
+  PlanReport plan(SimTime now, const StateVector& x,
+                  const JointVector& joint_angle) noexcept override;
+  void activatePlan() noexcept override;
+  void sample(SimTime now, PolicySample& out) const noexcept override;
+  void commanded(SimTime now, SimDuration period, const JointVector& torque) noexcept override;
+
+  StateBlob saveState() const override;
+  void restoreState(const StateBlob& blob) override;
+
+  const MpcPolicy& activePolicy() const { return active_; }
+  std::int64_t failedPlans() const { return failed_plans_; }
+
+ private:
+  bool inForce(SimTime now) const noexcept;
+
+  SimDuration fallback_after_;
+  FrequencyShaping shaping_;
+  LqrLaw lqr_;
+  MpcPlanner planner_;
+  MpcPolicy planned_, active_, scratch_;
+  Vector3 xf_ = Vector3::Zero();  ///< shaping filter, driven by the commanded torques [N m]
+  std::int64_t failed_plans_ = 0;
+};
+
+}  // namespace ballbot

@@ -1,0 +1,106 @@
+#include "controller/mpc_planner.hpp"
+
+#include "controller/discrete_engine.hpp"
+#include "core/config_reader.hpp"
+
+namespace ballbot {
+namespace {
+
+template <int NU>
+std::unique_ptr<MpcEngine> makeEngineOf(const RobotParameters& robot, const MpcConfig& c) {
+  SlqOptions options;
+  options.threads = c.threads;
+  options.clock = c.clock;
+  return std::make_unique<DiscreteEngine<NU>>(robot, c.constraints, c.shaping, c.terminal,
+                                              c.horizon.knots(), c.schedule, options);
+}
+
+}  // namespace
+
+MpcConfig::MpcConfig(const RobotParameters& robot)
+    : constraints(robot), schedule(std::make_shared<TaskSchedule>(robot)) {
+  lqr.set_point.arm = robot.nominal_arm;
+}
+
+MpcConfig MpcConfig::read(ConfigReader& in, const RobotParameters& robot) {
+  MpcConfig c(robot);
+  c.engine = in.choiceOr<Engine>("engine", c.engine, {{"discrete", Engine::kDiscrete}});
+  if (in.has("horizon")) {
+    ConfigReader horizon = in.child("horizon");
+    c.horizon = Horizon::read(horizon);
+  }
+  c.iterations = in.integerOr("iterations", c.iterations, {1, 1000});
+  c.first_iterations = in.integerOr("first_iterations", c.first_iterations, {1, 1000});
+  c.threads = in.integerOr("threads", c.threads, {1, 2});
+  c.contact_forces = in.booleanOr("contact_forces", c.contact_forces);
+  c.fallback_after = in.durationOr("fallback_after_ms", c.fallback_after, {1, 1e6});
+  if (in.has("wheel_shaping")) {
+    ConfigReader shaping = in.child("wheel_shaping");
+    c.shaping = FrequencyShaping::read(shaping);
+  }
+  if (in.has("constraints")) {
+    ConfigReader constraints = in.child("constraints");
+    c.constraints = Constraints::read(constraints, robot);
+  }
+  if (in.has("terminal")) {
+    ConfigReader terminal = in.child("terminal");
+    c.terminal.state_scale = terminal.numberOr("state_scale_s", c.terminal.state_scale, {0, 1e3});
+    terminal.finish();
+  }
+  ConfigReader tasks = in.child("tasks");
+  c.schedule = std::make_shared<TaskSchedule>(TaskSchedule::read(tasks, robot));
+  in.finish();
+  return c;
+}
+
+std::unique_ptr<MpcEngine> makeEngine(const RobotParameters& robot, const MpcConfig& config) {
+  return config.contact_forces ? makeEngineOf<9>(robot, config) : makeEngineOf<6>(robot, config);
+}
+
+MpcPlanner::MpcPlanner(const RobotParameters& robot, const MpcConfig& config)
+    : config_(config),
+      dynamics_(robot),
+      engine_(makeEngine(robot, config)),
+      seed_(engine_->emptyPolicy()) {}
+
+PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf,
+                            const JointVector& joint_angle, const PolicySample& stand_in,
+                            const MpcPolicy& previous, MpcPolicy& out) noexcept {
+  PlanReport report;
+  report.accepted = false;
+  if (!x.allFinite() || !xf.allFinite() || !joint_angle.allFinite()) {
+    report.status = "state not finite";
+    return report;
+  }
+  const bool fresh = previous.valid() && now - previous.stamp() <= config_.fallback_after;
+  if (!fresh) {
+    for (auto& knot : seed_.knots()) knot.x << stand_in.x, Vector3::Zero();
+    for (auto& control : seed_.controls()) {
+      control.u << stand_in.torque, Vector3::Zero();
+      control.K.setZero();
+      control.K.topLeftCorner<kJointCount, kStateDim>() = stand_in.feedback;
+    }
+    seed_.setValid(now);
+  }
+  MpcState x0;
+  x0 << x, xf;
+  const SlqReport slq = engine_->solve(now, x0, fresh ? previous : seed_,
+                                       fresh ? config_.iterations : config_.first_iterations, out);
+  if (slq.ok()) out.integrateJoints(dynamics_, joint_angle);
+
+  report.accepted = slq.ok();
+  report.iterations = slq.iterations;
+  report.cost = slq.cost;
+  report.step_length = slq.step_length;
+  report.constraint_violation = slq.terms.violation;
+  report.status = slqStatusName(slq.status);
+  report.predicted_decrease = slq.predicted_decrease;
+  report.regularisation = slq.shift;
+  report.terms = slq.terms;
+  report.approximation_ns = slq.times.approximation_ns;
+  report.riccati_ns = slq.times.riccati_ns;
+  report.line_search_ns = slq.times.line_search_ns;
+  return report;
+}
+
+}  // namespace ballbot

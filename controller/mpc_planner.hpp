@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+
+#include "controller/frequency_shaping.hpp"
+#include "controller/horizon.hpp"
+#include "controller/lqr_law.hpp"
+#include "controller/mpc_engine.hpp"
+#include "controller/whole_body_problem.hpp"
+
+namespace ballbot {
+
+struct MpcConfig {
+  enum class Engine { kDiscrete, kContinuous };
+  Engine engine = Engine::kDiscrete;
+  Horizon horizon;
+  int iterations = 1;        ///< per plan
+  int first_iterations = 10; ///< of a plan that starts from the LQR
+  int threads = 1;
+  bool contact_forces = false;  ///< the plan has end-effector forces as inputs
+  SimDuration fallback_after = std::chrono::milliseconds(100);  ///< without a good plan
+  FrequencyShaping shaping;
+  Constraints constraints;
+  TerminalCost terminal;
+  std::shared_ptr<const TaskSchedule> schedule;
+  LqrLawConfig lqr;  ///< seeds the first plan and takes over when plans fail
+  PhaseClock clock = nullptr;
+
+  explicit MpcConfig(const RobotParameters& robot);
+
+  /// Reads the `mpc` mapping. `lqr`, a mapping beside it, is read by whoever calls.
+  static MpcConfig read(ConfigReader& in, const RobotParameters& robot);
+};
+
+/// @throw NumericalError as LqrLaw.
+std::unique_ptr<MpcEngine> makeEngine(const RobotParameters& robot, const MpcConfig& config);
+
+/// From a state to a plan: takes the previous plan as a guess where it is fresh, the LQR's policy
+/// otherwise, and keeps what must survive from solve to solve. Solving neither allocates nor
+/// throws.
+class MpcPlanner {
+ public:
+  MpcPlanner(const RobotParameters& robot, const MpcConfig& config);
+
+  MpcPolicy emptyPolicy() const { return engine_->emptyPolicy(); }
+
+  /// @param xf        shaping filter state at `now`
+  /// @param stand_in  the LQR's policy at `now`, a safe guess when there is none better
+  /// @param previous  last good plan; may be invalid or stale
+  /// @param out       the new plan where the report says accepted; else unspecified
+  PlanReport plan(SimTime now, const StateVector& x, const Vector3& xf,
+                  const JointVector& joint_angle, const PolicySample& stand_in,
+                  const MpcPolicy& previous, MpcPolicy& out) noexcept;
+
+  double shift() const noexcept { return engine_->shift(); }
+  void setShift(double shift) noexcept { engine_->setShift(shift); }
+
+ private:
+  MpcConfig config_;
+  ReducedDynamics dynamics_;
+  std::unique_ptr<MpcEngine> engine_;
+  MpcPolicy seed_;
+};
+
+}  // namespace ballbot

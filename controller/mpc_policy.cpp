@@ -1,0 +1,115 @@
+#include "controller/mpc_policy.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace ballbot {
+namespace {
+
+/// Neighbours of time t in a list ordered by time, and the share of the later one.
+template <typename Sample>
+struct Between {
+  const Sample *before, *after;
+  double share;
+
+  Between(const std::vector<Sample>& samples, double t) {
+    const auto later = std::upper_bound(samples.begin(), samples.end(), t,
+                                        [](double value, const Sample& s) { return value < s.time; });
+    if (later == samples.begin() || later == samples.end()) {
+      before = after = later == samples.begin() ? &samples.front() : &samples.back();
+      share = 0;
+    } else {
+      after = &*later;
+      before = after - 1;
+      share = (t - before->time) / (after->time - before->time);
+    }
+  }
+  template <typename T>
+  T of(T Sample::* member) const {
+    return before->*member + share * (after->*member - before->*member);
+  }
+};
+
+}  // namespace
+
+MpcState MpcPolicy::stateAt(double t) const noexcept {
+  return Between<Knot>(knots_, t).of(&Knot::x);
+}
+
+void MpcPolicy::controlAt(double t, MpcInput& u, MpcGain& K) const noexcept {
+  const Between<Control> between(controls_, t);
+  u = between.of(&Control::u);
+  K = between.of(&Control::K);
+}
+
+void MpcPolicy::sample(SimTime now, const Vector3& xf, PolicySample& out) const noexcept {
+  const double t = toSeconds(now - stamp_);
+  const Between<Knot> knot(knots_, t);
+  const Between<Control> control(controls_, t);
+  const MpcState x = knot.of(&Knot::x);
+  out.x = x.head<kStateDim>();
+  out.joint_position = knot.of(&Knot::joint_position);
+  out.joint_velocity = knot.of(&Knot::joint_velocity);
+  const MpcGain K = control.of(&Control::K);
+  out.torque = control.of(&Control::u).head<kJointCount>();
+  out.torque.noalias() += K.topRightCorner<kJointCount, kFilterDim>() * (xf - x.tail<kFilterDim>());
+  out.feedback = K.topLeftCorner<kJointCount, kStateDim>();
+}
+
+void MpcPolicy::integrateJoints(const ReducedDynamics& dynamics,
+                                const JointVector& joint_angle) noexcept {
+  for (std::size_t k = 0; k < knots_.size(); ++k) {
+    Knot& knot = knots_[k];
+    knot.joint_velocity = dynamics.selectionMatrix(knot.x.head<kPositionDim>()) *
+                          knot.x.segment<kVelocityDim>(kPositionDim);
+    if (k == 0) {
+      knot.joint_position = joint_angle;
+    } else {
+      const Knot& last = knots_[k - 1];
+      knot.joint_position = last.joint_position + 0.5 * (knot.time - last.time) *
+                                                      (last.joint_velocity + knot.joint_velocity);
+    }
+    knot.joint_position.tail<kArmJointCount>() = knot.x.segment<kArmJointCount>(kArm1);
+  }
+}
+
+void MpcPolicy::save(BlobWriter& out) const {
+  out.put(valid_);
+  out.put(toNs(stamp_));
+  out.put(static_cast<std::int64_t>(knots_.size()));
+  out.put(static_cast<std::int64_t>(controls_.size()));
+  for (const Knot& k : knots_) {
+    out.put(k.time);
+    out.putDoubles(k.x.data(), k.x.size());
+    out.putDoubles(k.joint_position.data(), k.joint_position.size());
+    out.putDoubles(k.joint_velocity.data(), k.joint_velocity.size());
+  }
+  for (const Control& c : controls_) {
+    out.put(c.time);
+    out.putDoubles(c.u.data(), c.u.size());
+    out.putDoubles(c.K.data(), c.K.size());
+  }
+}
+
+void MpcPolicy::restore(BlobReader& in) {
+  valid_ = in.get<bool>();
+  stamp_ = simTimeFromNs(in.get<std::int64_t>());
+  if (in.get<std::int64_t>() != static_cast<std::int64_t>(knots_.size()) ||
+      in.get<std::int64_t>() != static_cast<std::int64_t>(controls_.size())) {
+    throw InputError("saved MPC plan has another horizon than this configuration");
+  }
+  for (Knot& k : knots_) {
+    k.time = in.get<double>();
+    in.getDoubles(k.x.data(), k.x.size());
+    in.getDoubles(k.joint_position.data(), k.joint_position.size());
+    in.getDoubles(k.joint_velocity.data(), k.joint_velocity.size());
+  }
+  for (Control& c : controls_) {
+    c.time = in.get<double>();
+    in.getDoubles(c.u.data(), c.u.size());
+    in.getDoubles(c.K.data(), c.K.size());
+  }
+}
+
+}  // namespace ballbot

@@ -1,0 +1,118 @@
+#include "controller/tasks.hpp"
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "core/config_reader.hpp"
+#include "core/error.hpp"
+#include "model/frames.hpp"
+
+namespace ballbot {
+namespace {
+
+/// A task of the file: weight, and a reference where there can be one.
+template <int N>
+void readTask(ConfigReader& in, const char* key, TimedWeight<N>& weight,
+              TimeSignal<N>* reference = nullptr) {
+  if (!in.has(key)) return;
+  ConfigReader task = in.child(key);
+  weight = TimedWeight<N>::read(task);
+  if (reference && task.has("reference")) {
+    ConfigReader signal = task.child("reference");
+    *reference = TimeSignal<N>::read(signal, reference->value(-kInf));
+  }
+  task.finish();
+}
+
+/// Angular velocity in W of R = Rz(yaw) Ry(pitch) Rx(roll) at given angle rates.
+Vector3 rateFromYawPitchRoll(const Vector3& angles, const Vector3& rates) {
+  const double cz = std::cos(angles[0]), sz = std::sin(angles[0]);
+  const double cy = std::cos(angles[1]), sy = std::sin(angles[1]);
+  return Vector3::UnitZ() * rates[0] + Vector3(-sz, cz, 0) * rates[1] +
+         Vector3(cz * cy, sz * cy, -sy) * rates[2];
+}
+
+}  // namespace
+
+TaskSchedule::TaskSchedule(const RobotParameters& robot) {
+  const ReducedDynamics dynamics(robot);
+  const Equilibrium rest = findEquilibrium(dynamics, robot.nominal_arm);
+  const ReducedDynamics::EndEffector ee = dynamics.endEffector(rest.x);
+  ee_position = TimeSignal<3>(ee.p_WE);
+  ee_orientation = TimeSignal<3>(yawPitchRollFromRotation(ee.R_WE));
+  arm_position = TimeSignal<3>(robot.nominal_arm);
+}
+
+TaskSchedule TaskSchedule::read(ConfigReader& in, const RobotParameters& robot) {
+  TaskSchedule s(robot);
+  readTask(in, "ee_position", s.ee_position_weight, &s.ee_position);
+  readTask(in, "ee_orientation", s.ee_orientation_weight, &s.ee_orientation);
+  readTask(in, "ee_velocity", s.ee_velocity_weight);
+  readTask(in, "ee_rate", s.ee_rate_weight);
+  readTask(in, "ball_position", s.ball_position_weight, &s.ball_position);
+  readTask(in, "yaw", s.yaw_weight, &s.yaw);
+  readTask(in, "ball_velocity", s.ball_velocity_weight);
+  readTask(in, "base_rate", s.base_rate_weight);
+  readTask(in, "arm_position", s.arm_position_weight, &s.arm_position);
+  readTask(in, "arm_rate", s.arm_rate_weight);
+  readTask(in, "wheel_torque", s.wheel_torque_weight);
+  readTask(in, "arm_torque", s.arm_torque_weight);
+  readTask(in, "contact_force", s.contact_force_weight, &s.contact_force);
+  if (in.has("contact_normal")) {
+    const auto n = in.numbers<3>("contact_normal", {-1, 1});
+    s.contact_normal_W << n[0], n[1], n[2];
+    const double horizontal = s.contact_normal_W.head<2>().norm();
+    if (horizontal < 0.1) {
+      throw InputError(fmt::format("{} is ({}, {}, {}), must have a horizontal part",
+                                   in.at("contact_normal"), n[0], n[1], n[2]));
+    }
+    s.contact_normal_W.normalize();
+  }
+  for (const char* torque : {"wheel_torque", "arm_torque"}) {
+    if (!in.has(torque)) {
+      throw InputError(fmt::format("{} is missing: a torque must cost something", in.at(torque)));
+    }
+  }
+  in.finish();
+  return s;
+}
+
+void TaskSchedule::at(double t, Tasks& out) const {
+  out.ee_position_weight = ee_position_weight.value(t);
+  out.ee_orientation_weight = ee_orientation_weight.value(t);
+  out.ee_velocity_weight = ee_velocity_weight.value(t);
+  out.ee_rate_weight = ee_rate_weight.value(t);
+  out.ball_position_weight = ball_position_weight.value(t);
+  out.yaw_weight = yaw_weight.value(t)[0];
+  out.ball_velocity_weight = ball_velocity_weight.value(t);
+  out.base_rate_weight = base_rate_weight.value(t);
+  out.arm_position_weight = arm_position_weight.value(t);
+  out.arm_rate_weight = arm_rate_weight.value(t);
+  out.wheel_torque_weight = wheel_torque_weight.value(t)[0];
+  out.arm_torque_weight = arm_torque_weight.value(t)[0];
+  out.contact_force_weight = contact_force_weight.value(t);
+
+  const Vector3 angles = ee_orientation.value(t);
+  out.p_WE = ee_position.value(t);
+  out.R_WE = rotationFromYawPitchRoll(angles[0], angles[1], angles[2]);
+  out.v_WE_W = ee_position.rate(t);
+  out.w_WE_W = rateFromYawPitchRoll(angles, ee_orientation.rate(t));
+  out.ball_position = ball_position.value(t);
+  out.ball_velocity = ball_position.rate(t);
+  out.yaw = yaw.value(t)[0];
+  out.arm_position = arm_position.value(t);
+  out.contact_force_C = contact_force.value(t);
+  out.R_WC = contactFrame(contact_normal_W);
+}
+
+Matrix3 contactFrame(const Vector3& normal) {
+  Matrix3 R_WC;
+  R_WC.col(2) = normal;
+  R_WC.col(0) = Vector3::UnitZ().cross(normal).normalized();
+  R_WC.col(1) = normal.cross(R_WC.col(0));
+  return R_WC;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace ballbot {
+
+class ConfigReader;
+
+/// A vector over time, from where it starts and the moves made since: steps, ramps and circles.
+/// Moves add up, so they may overlap.
+template <int N>
+class TimeSignal {
+ public:
+  using Vector = Eigen::Matrix<double, N, 1>;
+
+  explicit TimeSignal(const Vector& initial = Vector::Zero()) : initial_(initial) {}
+
+  Vector value(double t) const;
+  /// Time derivative; zero at a step.
+  Vector rate(double t) const;
+
+  void step(double at, const Vector& by) { moves_.push_back({at, 0, by, 0, 0}); }
+  void ramp(double at, double over, const Vector& by) { moves_.push_back({at, over, by, 0, 0}); }
+  /// Around the point `radius` to the left of the start in the first two components, leaving in
+  /// the second component's direction. Needs N >= 2.
+  void circle(double at, double radius, double period, double turns);
+
+  /// Keys: initial (default as given), moves: a list of
+  ///   {at_s, by: [...], over_s: 0}   or   {at_s, circle_radius_m, period_s, turns}.
+  static TimeSignal read(ConfigReader& in, const Vector& initial);
+
+ private:
+  struct Move {
+    double at, over;  ///< start and length [s]
+    Vector by;
+    double radius, period;  ///< a circle where radius is not 0
+  };
+  Vector initial_;
+  std::vector<Move> moves_;
+};
+
+/// One number per component from a key that holds one number for all or a list of N.
+template <int N>
+Eigen::Matrix<double, N, 1> readVector(ConfigReader& in, const char* key, double low, double high);
+
+/// Values that hold from a time on until the next: weights that switch tasks on and off.
+template <int N>
+class TimedWeight {
+ public:
+  using Vector = Eigen::Matrix<double, N, 1>;
+
+  explicit TimedWeight(const Vector& from_start = Vector::Zero()) : changes_{{-1e300, from_start}} {}
+  const Vector& value(double t) const;
+  void change(double at, const Vector& weight);
+
+  /// Keys: weight, and weight_changes: a list of {at_s, weight} in order of time.
+  static TimedWeight read(ConfigReader& in);
+
+ private:
+  struct Change {
+    double at;
+    Vector weight;
+  };
+  std::vector<Change> changes_;
+};
+
+}  // namespace ballbot

@@ -1,0 +1,277 @@
+#include "controller/whole_body_cost.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "controller/vector_kernels.hpp"
+
+namespace ballbot {
+namespace {
+
+/// Sum of barrier values; the logarithms of what is feasible are taken together, as one.
+class BarrierSum {
+ public:
+  explicit BarrierSum(const RelaxedBarrier& barrier) : barrier_(barrier) {}
+  RelaxedBarrier::Derivatives add(double h, CostTerms& terms) {
+    if (h > barrier_.delta) {
+      product_ *= h;
+      return {0, -barrier_.mu / h, barrier_.mu / (h * h)};
+    }
+    terms.violation = std::max(terms.violation, -h);
+    const RelaxedBarrier::Derivatives d = barrier_.derivatives(h);
+    relaxed_ += d.value;
+    return d;
+  }
+  double value() const { return relaxed_ - barrier_.mu * std::log(product_); }
+
+ private:
+  const RelaxedBarrier& barrier_;
+  double product_ = 1, relaxed_ = 0;
+};
+
+/// Both bounds of one coordinate; first and second derivative of the sum.
+struct TwoSided {
+  double first, second;
+};
+TwoSided addTwoSided(BarrierSum& sum, double above_lower, double below_upper, CostTerms& terms) {
+  const RelaxedBarrier::Derivatives low = sum.add(above_lower, terms);
+  const RelaxedBarrier::Derivatives high = sum.add(below_upper, terms);
+  return {low.first - high.first, low.second + high.second};
+}
+
+/// Rows of weighted residuals of the end-effector: six by eight, one row after the other.
+struct alignas(32) WeightedRows {
+  double row[6][8];
+
+  void set(const EndEffectorJacobian& J, const Eigen::Matrix<double, 6, 1>& root_weight) {
+    for (int r = 0; r < 6; ++r)
+      for (int i = 0; i < 8; ++i) row[r][i] = root_weight[r] * J(r, i);
+  }
+};
+
+/// Adds A^T B to the 8 x 8 block of `out` at (row, column).
+void addRowsProduct(const WeightedRows& A, const WeightedRows& B, StateExpansion& out, int row,
+                    int column) {
+  for (int j = 0; j < 8; j += 4) {
+    double* C = out.W + (column + j) * out.stride + row;
+    Tile<2, 4> tile;
+    tile.load(C, out.stride);
+    tile.addProduct(A.row[0], 8, B.row[0] + j, 8, 1, 6);
+    tile.store(C, out.stride);
+  }
+}
+
+/// Adds A^T e to the gradient from index `first` on.
+void addRowsGradient(const WeightedRows& A, const Eigen::Matrix<double, 6, 1>& e,
+                     StateExpansion& out, int first) {
+  Tile<2, 1> sum;
+  sum.setZero();
+  sum.addProduct(A.row[0], 8, e.data(), 1, 0, 6);
+  alignas(32) double g[8];
+  sum.store(g, 8);
+  for (int i = 0; i < 8; ++i) out.g(first + i) += g[i];
+}
+
+}  // namespace
+
+OrientationError orientationError(const Matrix3& R_desired, const Matrix3& R) {
+  const Eigen::Quaterniond delta(Matrix3(R_desired * R.transpose()));
+  const double sign = delta.w() < 0 ? -1 : 1;
+  return {sign * delta.vec(), sign * delta.w()};
+}
+
+WholeBodyCost::WholeBodyCost(const RobotParameters& robot, const Constraints& constraints)
+    : dynamics_(robot),
+      constraints_(constraints),
+      sin_tilt_limit_(std::sin(constraints.tilt_limit)),
+      cos_tilt_limit_(std::cos(constraints.tilt_limit)) {}
+
+template <bool kExpand>
+void WholeBodyCost::stateCost(const StateVector& x, const Tasks& tasks, double share,
+                              CostTerms& terms, StateExpansion* out) const {
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  ReducedDynamics::EndEffectorLinearization ee;
+  if constexpr (kExpand) {
+    dynamics_.linearizeEndEffector(x, ee);
+  } else {
+    ee.value = dynamics_.endEffector(x);
+  }
+
+  // End-effector pose and twist.
+  const OrientationError turn = orientationError(tasks.R_WE, ee.value.R_WE);
+  const Vector3 p_error = ee.value.p_WE - tasks.p_WE;
+  Vector6 twist_error;
+  twist_error << ee.value.v_WE_W - tasks.v_WE_W, ee.value.w_WE_W - tasks.w_WE_W;
+  Vector6 twist_weight;
+  twist_weight << tasks.ee_velocity_weight, tasks.ee_rate_weight;
+  terms.value[kEndEffectorPositionCost] +=
+      0.5 * share * tasks.ee_position_weight.dot(p_error.cwiseAbs2());
+  terms.value[kEndEffectorOrientationCost] +=
+      0.5 * share * tasks.ee_orientation_weight.dot(turn.e.cwiseAbs2());
+  terms.value[kEndEffectorTwistCost] += 0.5 * share * twist_weight.dot(twist_error.cwiseAbs2());
+  if constexpr (kExpand) {
+    EndEffectorJacobian J = ee.dpose_dq;
+    Matrix3 to_error = 0.5 * turn.eta * Matrix3::Identity();
+    to_error(0, 1) = -0.5 * turn.e.z();
+    to_error(0, 2) = 0.5 * turn.e.y();
+    to_error(1, 2) = -0.5 * turn.e.x();
+    to_error(1, 0) = -to_error(0, 1);
+    to_error(2, 0) = -to_error(0, 2);
+    to_error(2, 1) = -to_error(1, 2);
+    J.bottomRows<3>().noalias() = -to_error * ee.dpose_dq.bottomRows<3>();
+    Vector6 weight, error;
+    weight << tasks.ee_position_weight, tasks.ee_orientation_weight;
+    error.head<3>() = p_error;
+    error.tail<3>() = turn.e;
+    const Vector6 root = (share * weight).cwiseSqrt();
+    WeightedRows pose;
+    pose.set(J, root);
+    addRowsProduct(pose, pose, *out, 0, 0);
+    addRowsGradient(pose, root.cwiseProduct(error), *out, 0);
+    if (!twist_weight.isZero(0)) {
+      const Vector6 twist_root = (share * twist_weight).cwiseSqrt();
+      const Vector6 scaled_error = twist_root.cwiseProduct(twist_error);
+      WeightedRows along_q, along_nu;
+      along_q.set(ee.dtwist_dq, twist_root);
+      along_nu.set(ee.jacobian, twist_root);
+      addRowsProduct(along_q, along_q, *out, 0, 0);
+      addRowsProduct(along_nu, along_q, *out, kPositionDim, 0);
+      addRowsProduct(along_nu, along_nu, *out, kPositionDim, kPositionDim);
+      addRowsGradient(along_q, scaled_error, *out, 0);
+      addRowsGradient(along_nu, scaled_error, *out, kPositionDim);
+    }
+  }
+
+  // Tasks that are coordinates themselves.
+  const auto square = [&](int i, double weight, double target, CostTerm term) {
+    const double w = share * weight, e = x[i] - target;
+    terms.value[term] += 0.5 * w * e * e;
+    if constexpr (kExpand) {
+      out->H(i, i) += w;
+      out->g(i) += w * e;
+    }
+  };
+  constexpr int kNu = kPositionDim;
+  for (int i = 0; i < 2; ++i) {
+    square(kBallX + i, tasks.ball_position_weight[i], tasks.ball_position[i], kBallPositionCost);
+    square(kNu + kBallVx + i, tasks.ball_velocity_weight[i], tasks.ball_velocity[i],
+           kBallVelocityCost);
+  }
+  square(kYaw, tasks.yaw_weight, tasks.yaw, kYawCost);
+  for (int i = 0; i < 3; ++i) {
+    square(kNu + kOmegaX + i, tasks.base_rate_weight[i], 0, kBaseRateCost);
+    square(kArm1 + i, tasks.arm_position_weight[i], tasks.arm_position[i], kArmPositionCost);
+    square(kNu + kArmRate1 + i, tasks.arm_rate_weight[i], 0, kArmRateCost);
+  }
+
+  // Limits of the arm and of the tilt.
+  const auto expandAt = [&](int i, const TwoSided& d) {
+    if constexpr (kExpand) {
+      out->H(i, i) += share * d.second;
+      out->g(i) += share * d.first;
+    }
+  };
+  BarrierSum position(constraints_.arm_position), rate(constraints_.arm_rate);
+  for (int i = 0; i < kArmJointCount; ++i) {
+    const double q = x[kArm1 + i], dq = x[kNu + kArmRate1 + i];
+    expandAt(kArm1 + i, addTwoSided(position, q - constraints_.arm_lower[i],
+                                    constraints_.arm_upper[i] - q, terms));
+    expandAt(kNu + kArmRate1 + i, addTwoSided(rate, constraints_.arm_rate_limit + dq,
+                                              constraints_.arm_rate_limit - dq, terms));
+  }
+  terms.value[kArmPositionLimitCost] += share * position.value();
+  terms.value[kArmRateLimitCost] += share * rate.value();
+
+  // h = (cos tilt - cos limit) / sin limit: the margin in rad near the limit, smooth upright.
+  const double cos_pitch = std::cos(x[kPitch]), cos_roll = std::cos(x[kRoll]);
+  const double cos_tilt = cos_pitch * cos_roll;
+  BarrierSum tilt(constraints_.tilt);
+  const auto d = tilt.add((cos_tilt - cos_tilt_limit_) / sin_tilt_limit_, terms);
+  terms.value[kTiltLimitCost] += share * tilt.value();
+  if constexpr (kExpand) {
+    const double h_pitch = -std::sin(x[kPitch]) * cos_roll / sin_tilt_limit_;
+    const double h_roll = -cos_pitch * std::sin(x[kRoll]) / sin_tilt_limit_;
+    const double curvature = std::max(0.0, -d.first * cos_tilt / sin_tilt_limit_);
+    out->g(kPitch) += share * d.first * h_pitch;
+    out->g(kRoll) += share * d.first * h_roll;
+    out->H(kPitch, kPitch) += share * (d.second * h_pitch * h_pitch + curvature);
+    out->H(kRoll, kRoll) += share * (d.second * h_roll * h_roll + curvature);
+    out->H(kRoll, kPitch) += share * d.second * h_pitch * h_roll;
+  }
+}
+
+template <bool kExpand>
+void WholeBodyCost::inputCost(const JointVector& tau, const Vector3& lambda_C, const Tasks& tasks,
+                              double share, CostTerms& terms, InputExpansion* out) const {
+  BarrierSum limits(constraints_.torque);
+  for (int i = 0; i < kJointCount; ++i) {
+    const double limit = constraints_.torque_limit[i];
+    const TwoSided d = addTwoSided(limits, limit + tau[i], limit - tau[i], terms);
+    const double weight = i < kWheelCount ? 0 : tasks.arm_torque_weight;
+    terms.value[kArmTorqueCost] += 0.5 * share * weight * tau[i] * tau[i];
+    if constexpr (kExpand) {
+      out->gradient[i] = share * (weight * tau[i] + d.first);
+      out->diagonal[i] = share * (weight + d.second);
+    }
+  }
+  terms.value[kTorqueLimitCost] += share * limits.value();
+
+  if (!tasks.inContact()) {
+    terms.value[kContactForceCost] += 0.5 * share * lambda_C.squaredNorm();
+    if constexpr (kExpand) {
+      out->gradient.tail<3>() = share * lambda_C;
+      out->diagonal.tail<3>().setConstant(share);
+      out->force_hessian = share * Matrix3::Identity();
+    }
+    return;
+  }
+  const Vector3 error = lambda_C - tasks.contact_force_C;
+  terms.value[kContactForceCost] +=
+      0.5 * share * tasks.contact_force_weight.dot(error.cwiseAbs2());
+  const double epsilon = constraints_.cone_epsilon, lx = lambda_C.x(), ly = lambda_C.y();
+  const double n = std::sqrt(lx * lx + ly * ly + epsilon * epsilon);
+  BarrierSum cone(constraints_.cone);
+  const auto d = cone.add(constraints_.friction * lambda_C.z() - n, terms);
+  terms.value[kFrictionConeCost] += share * cone.value();
+  if constexpr (kExpand) {
+    const Vector3 h_gradient(-lx / n, -ly / n, constraints_.friction);
+    // B' <= 0 and h is concave: both parts of the Hessian are positive semidefinite.
+    Matrix3 h_hessian = Matrix3::Zero();
+    const double n3 = n * n * n;
+    h_hessian(0, 0) = -(ly * ly + epsilon * epsilon) / n3;
+    h_hessian(1, 1) = -(lx * lx + epsilon * epsilon) / n3;
+    h_hessian(0, 1) = h_hessian(1, 0) = lx * ly / n3;
+    const double slope = std::min(0.0, d.first);
+    out->gradient.tail<3>() =
+        share * (tasks.contact_force_weight.cwiseProduct(error) + d.first * h_gradient);
+    out->force_hessian = share * (d.second * h_gradient * h_gradient.transpose() +
+                                  slope * h_hessian);
+    out->force_hessian.diagonal() += share * tasks.contact_force_weight;
+    out->diagonal.tail<3>() = out->force_hessian.diagonal();
+  }
+}
+
+void WholeBodyCost::addState(const StateVector& x, const Tasks& tasks, double share,
+                             CostTerms& terms) const {
+  stateCost<false>(x, tasks, share, terms, nullptr);
+}
+
+void WholeBodyCost::expandState(const StateVector& x, const Tasks& tasks, double share,
+                                CostTerms& terms, StateExpansion out) const {
+  stateCost<true>(x, tasks, share, terms, &out);
+}
+
+void WholeBodyCost::addInput(const JointVector& tau, const Vector3& lambda_C, const Tasks& tasks,
+                             double share, CostTerms& terms) const {
+  inputCost<false>(tau, lambda_C, tasks, share, terms, nullptr);
+}
+
+void WholeBodyCost::expandInput(const JointVector& tau, const Vector3& lambda_C,
+                                const Tasks& tasks, double share, CostTerms& terms,
+                                InputExpansion& out) const {
+  inputCost<true>(tau, lambda_C, tasks, share, terms, &out);
+}
+
+}  // namespace ballbot

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "controller/constraints.hpp"
+#include "controller/cost_terms.hpp"
+#include "controller/tasks.hpp"
+#include "model/reduced_dynamics.hpp"
+
+namespace ballbot {
+
+constexpr int kFilterDim = kWheelCount;                 ///< low-passed wheel torques x_f
+constexpr int kMpcStateDim = kStateDim + kFilterDim;    ///< (q, nu, x_f)
+
+/// Where a cost adds its second-order expansion in the robot's state: lower triangle and gradient
+/// inside a column-major augmented matrix [H g; g^T *] of an LqStage or a ValueFunction.
+struct StateExpansion {
+  double* W;        ///< aligned to 32 bytes
+  int stride;       ///< between columns, a multiple of 4
+  int gradient_row; ///< row of g^T
+
+  double& H(int row, int column) { return W[column * stride + row]; }
+  double& g(int i) { return W[i * stride + gradient_row]; }
+};
+
+/// The same for the inputs (tau, lambda): H is diagonal but for the force's 3 x 3 block.
+struct InputExpansion {
+  Eigen::Matrix<double, kJointCount + 3, 1> gradient, diagonal;
+  Matrix3 force_hessian;
+};
+
+/// The running cost of Minniti et al. 2019, eq. 8-10: tasks as weighted squares, inequalities as
+/// relaxed barriers. State part and input part are separate, so that discrete and continuous
+/// solvers can weigh them by their own quadrature. Everything is multiplied by `share` (a length of
+/// time) and added. Hessians are Gauss-Newton where residuals are curved: positive semidefinite.
+class WholeBodyCost {
+ public:
+  WholeBodyCost(const RobotParameters& robot, const Constraints& constraints);
+  const Constraints& constraints() const { return constraints_; }
+
+  void addState(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms) const;
+  void expandState(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms,
+                   StateExpansion out) const;
+
+  /// All of the input cost but the wheel torques' own squares, which frequency shaping takes over.
+  /// Without contact the force costs |lambda|^2 / 2 and moves nothing: it stays zero.
+  void addInput(const JointVector& tau, const Vector3& lambda_C, const Tasks& tasks, double share,
+                CostTerms& terms) const;
+  /// Overwrites `out`.
+  void expandInput(const JointVector& tau, const Vector3& lambda_C, const Tasks& tasks,
+                   double share, CostTerms& terms, InputExpansion& out) const;
+
+ private:
+  template <bool kExpand>
+  void stateCost(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms,
+                 StateExpansion* out) const;
+  template <bool kExpand>
+  void inputCost(const JointVector& tau, const Vector3& lambda_C, const Tasks& tasks, double share,
+                 CostTerms& terms, InputExpansion* out) const;
+
+  ReducedDynamics dynamics_;
+  Constraints constraints_;
+  double sin_tilt_limit_, cos_tilt_limit_;
+};
+
+/// Vector part e of the quaternion of R_desired R^T, |e| = sin(angle / 2), and its scalar part
+/// eta >= 0. A small rotation delta of R in W changes it by -1/2 (eta 1 + skew(e)) delta.
+struct OrientationError {
+  Vector3 e;
+  double eta;
+};
+OrientationError orientationError(const Matrix3& R_desired, const Matrix3& R);
+
+}  // namespace ballbot

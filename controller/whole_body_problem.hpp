@@ -1,0 +1,66 @@
+#pragma once
+
+#include <vector>
+
+#include "controller/frequency_shaping.hpp"
+#include "controller/optimal_control_problem.hpp"
+#include "controller/whole_body_cost.hpp"
+
+namespace ballbot {
+
+/// What happens after the horizon, as a cost of its last state.
+struct TerminalCost {
+  double state_scale = 0.5;  ///< the state's cost rate times this [s]
+};
+
+/// The whole-body problem on a grid of knots: state (q, nu, x_f), input (tau, lambda_C) or, with
+/// NU = 6, tau alone; inputs are held over a step.
+///
+/// One step of length H: positions drift half a step, velocities get the acceleration found there,
+/// positions drift with the mean velocity. Second order but for the Coriolis terms, which see the
+/// velocity at the start; one dynamics evaluation a step. The filter is exact (FilterStep).
+///
+///   q_m = q + H/2 T(q) nu,   nu+ = nu + H a(q_m, nu, u),   q+ = q + H T(q_m) (nu + nu+)/2
+///
+/// The state's cost is integrated by the trapezoidal rule, the input's exactly.
+template <int NU>
+class WholeBodyProblem final : public OptimalControlProblem<kMpcStateDim, NU> {
+ public:
+  using Base = OptimalControlProblem<kMpcStateDim, NU>;
+  using X = typename Base::X;
+  using U = typename Base::U;
+  using Stage = LqStage<kMpcStateDim, NU>;
+
+  WholeBodyProblem(const RobotParameters& robot, const Constraints& constraints,
+                   const FrequencyShaping& shaping, const TerminalCost& terminal,
+                   const std::vector<double>& knots);
+
+  /// Tasks for a horizon that starts at t0 [s]. Free of allocation.
+  void setTasks(const TaskSchedule& schedule, double t0) noexcept;
+  /// For tests and special uses: the tasks of one knot.
+  Tasks& tasks(int k) { return tasks_[k]; }
+
+  int stages() const noexcept override { return static_cast<int>(steps_.size()); }
+  void step(int k, const X& x, const U& u, X& next) const noexcept override;
+  void addCost(int k, const X& x, const U& u, CostTerms& terms) const noexcept override;
+  void addFinalCost(const X& x, CostTerms& terms) const noexcept override;
+  void linearizeStep(int k, const X& x, const U& u, X& next, Stage& lq) const noexcept override;
+  void approximateCost(int k, const X& x, const U& u, CostTerms& terms,
+                       Stage& lq) const noexcept override;
+  void approximateFinalCost(const X& x, CostTerms& terms,
+                            ValueFunction<kMpcStateDim>& value) const noexcept override;
+
+ private:
+  /// Force on the end-effector in W; zero without contact.
+  Vector3 forceInWorld(int k, const U& u) const;
+  static Vector3 forceInContact(const U& u);
+
+  ReducedDynamics dynamics_;
+  WholeBodyCost cost_;
+  TerminalCost terminal_;
+  std::vector<FilterStep> steps_;   ///< one per stage; H is the stage's length
+  std::vector<double> state_share_; ///< trapezoidal weight of each knot's state cost [s]
+  std::vector<Tasks> tasks_;        ///< one per knot
+};
+
+}  // namespace ballbot

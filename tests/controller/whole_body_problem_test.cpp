@@ -1,0 +1,215 @@
+#include "controller/whole_body_problem.hpp"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include "model/frames.hpp"
+#include "tests/model/robot_fixture.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr int NU = 9;
+using Problem = WholeBodyProblem<NU>;
+using X = Problem::X;
+using U = Problem::U;
+using Stage = Problem::Stage;
+
+/// Numbers on (-1, 1), repeatable.
+class Draw {
+ public:
+  explicit Draw(int index) : index_(index) {}
+  double operator()() {
+    const double u = stream_.uniforms(index_, count_ / 4)[count_ % 4];
+    ++count_;
+    return 2 * u - 1;
+  }
+  template <int N>
+  Eigen::Matrix<double, N, 1> vector(double scale) {
+    Eigen::Matrix<double, N, 1> v;
+    for (int i = 0; i < N; ++i) v[i] = scale * (*this)();
+    return v;
+  }
+
+ private:
+  RandomStream stream_{3, "whole_body_problem_test"};
+  int index_, count_ = 0;
+};
+
+/// Every task on, errors of every kind.
+Tasks randomTasks(Draw& draw) {
+  Tasks t;
+  const auto weights = [&](auto& w, double scale) {
+    for (int i = 0; i < w.size(); ++i) w[i] = scale * (1.5 + draw());
+  };
+  weights(t.ee_position_weight, 100);
+  weights(t.ee_orientation_weight, 20);
+  weights(t.ee_velocity_weight, 4);
+  weights(t.ee_rate_weight, 1);
+  weights(t.ball_position_weight, 50);
+  weights(t.ball_velocity_weight, 10);
+  weights(t.base_rate_weight, 4);
+  weights(t.arm_position_weight, 5);
+  weights(t.arm_rate_weight, 0.5);
+  weights(t.contact_force_weight, 1);
+  t.yaw_weight = 20;
+  t.wheel_torque_weight = 2;
+  t.arm_torque_weight = 0.1;
+  t.p_WE = Vector3(0.2, 0.1, 0.9) + draw.vector<3>(0.2);
+  t.R_WE = expSO3(draw.vector<3>(0.7));
+  t.v_WE_W = draw.vector<3>(0.3);
+  t.w_WE_W = draw.vector<3>(0.3);
+  t.ball_position = draw.vector<2>(0.5);
+  t.ball_velocity = draw.vector<2>(0.5);
+  t.yaw = draw();
+  t.arm_position = draw.vector<3>(1);
+  t.contact_force_C = Vector3(0, 0, 8);
+  t.R_WC = contactFrame(Vector3(-0.8, 0.6, 0));
+  return t;
+}
+
+class WholeBodyProblemTest : public testing::TestWithParam<int> {
+ protected:
+  WholeBodyProblemTest() {
+    Draw draw(GetParam());
+    for (int k = 0; k <= problem_.stages(); ++k) problem_.tasks(k) = randomTasks(draw);
+    x_.setZero();
+    x_.segment<2>(kBallX) = draw.vector<2>(0.5);
+    x_[kYaw] = 3 * draw();
+    x_.segment<2>(kPitch) = draw.vector<2>(0.2);
+    x_.segment<3>(kArm1) = robot_.nominal_arm + draw.vector<3>(0.4);
+    x_.segment<8>(kPositionDim) = draw.vector<8>(1.5);
+    x_.tail<3>() = draw.vector<3>(2);
+    u_.head<3>() = draw.vector<3>(3);
+    u_.segment<3>(3) = draw.vector<3>(8);
+    u_.tail<3>() = Vector3(0, 0, 6) + draw.vector<3>(2);
+  }
+  RobotParameters robot_ = exampleRobot();
+  Problem problem_{robot_, Constraints(robot_), FrequencyShaping{20, 300}, TerminalCost{},
+                   {0, 0.02, 0.05}};
+  X x_;
+  U u_;
+};
+
+double cost(const Problem& problem, const X& x, const U& u) {
+  CostTerms terms;
+  problem.addCost(0, x, u, terms);
+  return terms.total();
+}
+double finalCost(const Problem& problem, const X& x) {
+  CostTerms terms;
+  problem.addFinalCost(x, terms);
+  return terms.total();
+}
+
+TEST_P(WholeBodyProblemTest, AAndBAreCentralDifferencesOfTheStep) {
+  Stage lq;
+  X next, expected;
+  problem_.linearizeStep(1, x_, u_, next, lq);
+  problem_.step(1, x_, u_, expected);
+  EXPECT_LT((next - expected).cwiseAbs().maxCoeff(), 1e-12);
+  const double h = 1e-6;
+  for (int i = 0; i < kMpcStateDim + NU; ++i) {
+    X xa = x_, xb = x_, a, b;
+    U ua = u_, ub = u_;
+    const bool state = i < kMpcStateDim;
+    (state ? xa[i] : ua[i - kMpcStateDim]) += h;
+    (state ? xb[i] : ub[i - kMpcStateDim]) -= h;
+    problem_.step(1, xa, ua, a);
+    problem_.step(1, xb, ub, b);
+    const X difference = (a - b) / (2 * h);
+    const X column = state ? X(lq.A().col(i)) : X(lq.B().col(i - kMpcStateDim));
+    EXPECT_LT((column - difference).cwiseAbs().maxCoeff(), 1e-8) << "column " << i;
+  }
+}
+
+TEST_P(WholeBodyProblemTest, CostGradientsAreCentralDifferences) {
+  Stage lq;
+  CostTerms terms, expected;
+  problem_.approximateCost(0, x_, u_, terms, lq);
+  problem_.addCost(0, x_, u_, expected);
+  for (int i = 0; i < kCostTermCount; ++i) {
+    EXPECT_NEAR(terms.value[i], expected.value[i], 1e-13) << costTermName(CostTerm(i));
+  }
+  const double h = 1e-5;
+  for (int i = 0; i < kMpcStateDim; ++i) {
+    X a = x_, b = x_;
+    a[i] += h;
+    b[i] -= h;
+    const double difference = (cost(problem_, a, u_) - cost(problem_, b, u_)) / (2 * h);
+    EXPECT_NEAR(lq.q()[i], difference, 1e-7) << "state " << i;
+  }
+  for (int i = 0; i < NU; ++i) {
+    U a = u_, b = u_;
+    a[i] += h;
+    b[i] -= h;
+    const double difference = (cost(problem_, x_, a) - cost(problem_, x_, b)) / (2 * h);
+    EXPECT_NEAR(lq.r()[i], difference, 1e-7) << "input " << i;
+  }
+}
+
+TEST_P(WholeBodyProblemTest, FinalCostGradientIsACentralDifference) {
+  ValueFunction<kMpcStateDim> value;
+  CostTerms terms;
+  problem_.approximateFinalCost(x_, terms, value);
+  EXPECT_NEAR(terms.total(), finalCost(problem_, x_), 1e-12);
+  const double h = 1e-5;
+  for (int i = 0; i < kMpcStateDim; ++i) {
+    X a = x_, b = x_;
+    a[i] += h;
+    b[i] -= h;
+    EXPECT_NEAR(value.s()[i], (finalCost(problem_, a) - finalCost(problem_, b)) / (2 * h), 1e-5) << i;
+  }
+}
+
+TEST_P(WholeBodyProblemTest, HessiansArePositiveSemidefinite) {
+  Stage lq;
+  CostTerms terms;
+  problem_.approximateCost(0, x_, u_, terms, lq);
+  Eigen::Matrix<double, kMpcStateDim + NU, kMpcStateDim + NU> H;
+  H.topLeftCorner<kMpcStateDim, kMpcStateDim>() = lq.Q();
+  H.bottomRightCorner<NU, NU>() = lq.R();
+  H.bottomLeftCorner<NU, kMpcStateDim>() = lq.Pt().transpose();
+  const auto eigen = Eigen::SelfAdjointEigenSolver<decltype(H)>(H).eigenvalues();
+  EXPECT_GT(eigen[0], -1e-9 * eigen.tail<1>()[0]);
+}
+
+TEST_P(WholeBodyProblemTest, WithoutContactTheForceMovesNothing) {
+  problem_.tasks(0).contact_force_weight.setZero();
+  U pushed = u_;
+  pushed.tail<3>() *= 3;
+  X a, b;
+  problem_.step(0, x_, u_, a);
+  problem_.step(0, x_, pushed, b);
+  EXPECT_EQ(a, b);
+  Stage lq;
+  problem_.linearizeStep(0, x_, u_, a, lq);
+  EXPECT_EQ(lq.B().rightCols<3>().norm(), 0);
+}
+
+TEST_P(WholeBodyProblemTest, TheStepConvergesToTheDifferentialEquation) {
+  // Against a tenth of the step with the same held input: the error falls by the square of the step
+  // up to the Coriolis terms, which are first order and small.
+  const auto errorOf = [&](double H) {
+    const int fine = 64;
+    const Problem coarse(robot_, Constraints(robot_), FrequencyShaping{20, 300}, {}, {0, H});
+    const Problem small(robot_, Constraints(robot_), FrequencyShaping{20, 300}, {}, {0, H / fine});
+    X once, x = x_, next;
+    coarse.step(0, x_, u_, once);
+    for (int i = 0; i < fine; ++i) {
+      small.step(0, x, u_, next);
+      x = next;
+    }
+    return (once - x).norm();
+  };
+  const double at_20ms = errorOf(0.02), at_10ms = errorOf(0.01);
+  EXPECT_LT(at_10ms, 0.35 * at_20ms);
+  EXPECT_LT(at_20ms, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(RandomStates, WholeBodyProblemTest, testing::Range(0, 12));
+
+}  // namespace
+}  // namespace ballbot
