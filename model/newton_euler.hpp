@@ -9,10 +9,10 @@
 
 namespace ballbot {
 
-/// Of eight angles.
+/// Of six angles; the arrays have room for eight.
 template <typename Scalar>
 void sinesAndCosines(const Scalar* angle, Scalar* sine, Scalar* cosine) {
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 6; ++i) {
     sine[i] = std::sin(angle[i]);
     cosine[i] = std::cos(angle[i]);
   }
@@ -69,16 +69,20 @@ class NewtonEuler {
     M(0, 0) += translating;
     M(1, 1) += translating;
     for (int k = 0; k < 3; ++k) {
-      const Vec3 force = cross(Vec3(Vec3::Unit(k)), composite[0].first);
       M.template block<2, 1>(kBallVx, kOmegaX + k) =
-          (R_WB * force).template head<2>() - rho_ * (one + rho_) * G_rolling.row(k).transpose();
+          -rho_ * (one + rho_) * G_rolling.row(k).transpose();
+    }
+    // A row of R times -skew(first) is first x row.
+    for (int k = 0; k < 2; ++k) {
+      M.template block<1, 3>(kBallVx + k, kOmegaX) +=
+          cross(composite[0].first, R_WB.row(k)).transpose();
     }
     const Mat3& second = composite[0].second;
     M.template block<3, 3>(kOmegaX, kOmegaX) = (one + rho_) * (one + rho_) * G_ - second;
     for (int k = 0; k < 3; ++k) M(kOmegaX + k, kOmegaX + k) += second.trace();
     for (int i = 0; i < kArmJointCount; ++i) {
       const int column = kArmRate1 + i;
-      M.template block<2, 1>(kBallVx, column) = (R_WB * joint_wrench[i].force).template head<2>();
+      for (int k = 0; k < 2; ++k) M(k, column) = dot(R_WB.row(k), joint_wrench[i].force);
       M.template block<3, 1>(kOmegaX, column) = joint_wrench[i].moment;
       for (int j = 0; j <= i; ++j) M(kArmRate1 + j, column) = dot(joint[j], joint_wrench[i]);
     }
@@ -99,6 +103,12 @@ class NewtonEuler {
       force[kArmRate1 + i] = tau[kWheelCount + i] + dot(tipVelocity(i), lambda);
     }
     return force;
+  }
+
+  /// Rates of yaw, pitch and roll.
+  Vec3 eulerRates() const {
+    const Scalar yaw = (sin_roll * omega[1] + cos_roll * omega[2]) / cos_pitch;
+    return {yaw, cos_roll * omega[1] - sin_roll * omega[2], omega[0] + sin_pitch * yaw};
   }
 
   /// Torque of the wheels on the ball, in B.

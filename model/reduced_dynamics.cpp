@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "model/dynamics_lanes.hpp"
+#include "model/end_effector.hpp"
 #include "model/frames.hpp"
-#include "model/mass_matrix_inverse.hpp"
 #include "model/newton_euler.hpp"
 #include "model/omniwheel_kinematics.hpp"
 
@@ -38,18 +38,47 @@ SelectionMatrix ReducedDynamics::selectionMatrix(const PositionVector& q) const 
 VelocityVector ReducedDynamics::acceleration(const PositionVector& q, const VelocityVector& nu,
                                              const JointVector& tau,
                                              const Vector3& lambda_W) const {
-  const Pass pass(*constants_, q, nu);
-  return inverseOfPositiveDefinite(pass.massMatrix()) *
-         (pass.appliedForce(tau, lambda_W) - pass.nonlinearEffects());
+  StateVector x;
+  x.head<kPositionDim>() = q;
+  x.tail<kVelocityDim>() = nu;
+  return derivative(x, tau, lambda_W).tail<kVelocityDim>();
 }
 
 StateVector ReducedDynamics::derivative(const StateVector& x, const JointVector& tau,
                                         const Vector3& lambda_W) const {
-  const PositionVector q = x.head<kPositionDim>();
-  const VelocityVector nu = x.tail<kVelocityDim>();
   StateVector dx;
-  dx << positionRate(q, nu), acceleration(q, nu, tau, lambda_W);
+  derivatives(1, &x, &tau, &lambda_W, &dx);
   return dx;
+}
+
+void ReducedDynamics::derivatives(int count, const StateVector* x, const JointVector* tau,
+                                  const Vector3* lambda_W, StateVector* dx) const {
+  for (int first = 0; first < count; first += Pack::kLanes) {
+    const DynamicsLanes lanes(*constants_, first, count, x);
+    const DynamicsLanes::Pass& pass = lanes.pass;
+    Eigen::Matrix<Pack, kStateDim, 1> rate;
+    rate.head<kPositionDim>() = lanes.nu;
+    rate.segment<3>(kYaw) = pass.eulerRates();
+    rate.tail<kVelocityDim>() =
+        pass.appliedForce(lanes.gathered<0, kJointCount>(tau), lanes.gathered<0, 3>(lambda_W)) -
+        pass.nonlinearEffects();
+    Ldlt<Pack, kVelocityDim>(pass.massMatrix()).solveInPlace(rate.tail<kVelocityDim>());
+    lanes.put<kStateDim>(rate.data(), dx, [](StateVector& out) { return out.data(); });
+  }
+}
+
+ReducedDynamics::EndEffector ReducedDynamics::endEffector(const StateVector& x) const {
+  const Pass pass(*constants_, x.head<kPositionDim>(), x.tail<kVelocityDim>());
+  const EndEffectorKinematics<double> E(*constants_, pass, x.head<2>(), x.segment<2>(kPositionDim));
+  return {E.position, E.rotation, E.velocity, E.angular_velocity};
+}
+
+EndEffectorJacobian ReducedDynamics::endEffectorJacobian(const PositionVector& q) const {
+  StateVector x = StateVector::Zero();
+  x.head<kPositionDim>() = q;
+  EndEffectorLinearization out;
+  linearizeEndEffector(x, out);
+  return out.jacobian;
 }
 
 double ReducedDynamics::energy(const StateVector& x) const {

@@ -42,9 +42,10 @@ class ReducedDynamics {
   StateVector derivative(const StateVector& x, const JointVector& tau,
                          const Vector3& lambda_W) const;
 
-  /// dx/dt with its partial derivatives. Entries that are zero at every state (the columns of px
-  /// and py; what dq does not depend on) are set by the constructor only and must stay.
+  /// dx/dt with its partial derivatives. The constructor sets the entries that are the same at
+  /// every state: zeros, and the ones of dq/dnu. They are never written again.
   struct Linearization {
+    Linearization();
     StateVector f = StateVector::Zero();
     StateJacobian df_dx = StateJacobian::Zero();
     TorqueJacobian df_dtau = TorqueJacobian::Zero();
@@ -64,8 +65,10 @@ class ReducedDynamics {
   EndEffectorJacobian endEffectorJacobian(const PositionVector& q) const;
 
   /// Pose and twist of the end-effector with their derivatives. Rows: displacement of E, then small
-  /// rotation of E about axes of W; of the twist: v_WE_W, then w_WE_W.
+  /// rotation of E about axes of W; of the twist: v_WE_W, then w_WE_W. Constant entries are those
+  /// of the constructor, as above.
   struct EndEffectorLinearization {
+    EndEffectorLinearization();
     EndEffector value;
     EndEffectorJacobian jacobian = EndEffectorJacobian::Zero();  ///< of the twist by nu, and so of
                                                                  ///< the pose by nu dt
@@ -73,9 +76,14 @@ class ReducedDynamics {
     EndEffectorJacobian dtwist_dq = EndEffectorJacobian::Zero();
   };
   void linearizeEndEffector(const StateVector& x, EndEffectorLinearization& out) const;
-  /// Dynamics and end-effector at once, for little more than the dynamics alone.
-  void linearize(const StateVector& x, const JointVector& tau, const Vector3& lambda_W,
-                 Linearization& out, EndEffectorLinearization& end_effector) const;
+
+  /// The same for `count` states: arrays in, arrays out. Four states at once take little longer
+  /// than one, and each gets the same bits as it would alone.
+  void derivatives(int count, const StateVector* x, const JointVector* tau, const Vector3* lambda_W,
+                   StateVector* dx) const;
+  /// @param end_effector  null where it is not wanted
+  void linearize(int count, const StateVector* x, const JointVector* tau, const Vector3* lambda_W,
+                 Linearization* out, EndEffectorLinearization* end_effector) const;
 
   /// Kinetic plus potential energy [J], zero potential at z = 0.
   double energy(const StateVector& x) const;

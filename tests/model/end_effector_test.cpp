@@ -77,7 +77,7 @@ TEST_F(EndEffectorTest, ComesWithTheDynamicsBitForBit) {
   ReducedDynamics::EndEffectorLinearization E_alone, E_together;
   dynamics.linearize(c.x, c.tau, c.lambda, alone);
   dynamics.linearizeEndEffector(c.x, E_alone);
-  dynamics.linearize(c.x, c.tau, c.lambda, together, E_together);
+  dynamics.linearize(1, &c.x, &c.tau, &c.lambda, &together, &E_together);
   EXPECT_EQ(alone.df_dx, together.df_dx);
   EXPECT_EQ(E_alone.dtwist_dq, E_together.dtwist_dq);
   EXPECT_EQ(E_alone.value.p_WE, E_together.value.p_WE);
