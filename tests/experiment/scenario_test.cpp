@@ -21,8 +21,8 @@ TEST(Scenario, WrittenToARunFolderItReadsBackTheSame) {
   const Scenario scenario = loadScenario(balance(), {"duration_s=3.5", "plant.fidelity.friction=false"}, 42);
   writeScenario(scenario, folder.string());
   const Scenario again = loadScenario((folder / "scenario.yaml").string());
-  fs::remove_all(folder);
   EXPECT_EQ(again.configDigest(), scenario.configDigest());
+  fs::remove_all(folder);
   EXPECT_EQ(again.duration, std::chrono::milliseconds(3500));
   EXPECT_EQ(again.seed, 42u);
   EXPECT_EQ(again.release, scenario.release);
