@@ -12,6 +12,8 @@
 #include "experiment/run_record.hpp"
 #include "experiment/run_report.hpp"
 #include "metrics/balance_metrics.hpp"
+#include "metrics/push_metrics.hpp"
+#include "plant/environment.hpp"
 
 namespace ballbot {
 namespace {
@@ -33,6 +35,20 @@ RecorderOptions readRecorderOptions(const Scenario& scenario, const std::string&
   return options;
 }
 
+/// Every metric that a run of this controller can produce.
+std::vector<std::string> knownMetrics(const RobotController& controller) {
+  std::vector<std::string> names = BalanceMetrics::names();
+  for (const std::string& name : PushMetrics::names()) names.push_back(name);
+  for (const auto& counter : controller.counters()) names.push_back(counter.first);
+  return names;
+}
+
+std::vector<PushMetrics::Interval> pushIntervals(const Scenario& scenario) {
+  std::vector<PushMetrics::Interval> out;
+  for (const Push& push : scheduledPushes(scenario.tree)) out.push_back({push.start, push.end()});
+  return out;
+}
+
 /// Saves, kills the plant, starts another and continues, between two events.
 void replacePlant(StepMaster& master, PlantLink& plant) {
   const StateBlob saved = master.save().toBlob();
@@ -47,8 +63,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   // Everything that can be wrong with the scenario is said before anything is started.
   EventCalendar calendar(scenario.rates.base_step);
   RobotController controller(scenario, calendar);
-  std::vector<std::string> known_metrics = BalanceMetrics::names();
-  for (const auto& counter : controller.counters()) known_metrics.push_back(counter.first);
+  const std::vector<std::string> known_metrics = knownMetrics(controller);
   judge(scenario.requirements, {}, known_metrics);
   readRecorderOptions(scenario, "");
   checkPlant(scenario);
@@ -71,13 +86,17 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   controller.timePlans(wallNs, planned_plans);
   Recorder recorder(readRecorderOptions(scenario, folder.logFile()));
   BalanceMetrics metrics(scenario.release);
+  PushMetrics push_metrics(pushIntervals(scenario));
 
   MasterOptions master_options;
   master_options.end = kSimStart + scenario.duration;
   master_options.stop = options.stop;
   StepMaster master(plant.participant(), controller, calendar, &recorder, master_options);
   master.setObserver([&](const Tick& tick) {
-    if (tick.truth) metrics.add(*tick.truth, tick.control.command);
+    if (tick.truth) {
+      metrics.add(*tick.truth, tick.control.command);
+      push_metrics.add(*tick.truth);
+    }
     if (options.progress) options.progress(tick.time);
     return !metrics.fell();
   });
@@ -103,6 +122,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   result.fell = metrics.fell();
   result.trajectory_digest = recorder.trajectoryDigest();
   result.metrics = metrics.values();
+  for (const auto& value : push_metrics.values()) result.metrics.insert(value);
   for (const auto& counter : controller.counters()) result.metrics.insert(counter);
   result.verdicts = judge(scenario.requirements, result.metrics, known_metrics);
   result.passed = result.completed && !result.fell;

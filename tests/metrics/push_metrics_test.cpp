@@ -1,0 +1,52 @@
+#include "metrics/push_metrics.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace ballbot {
+namespace {
+
+SimTime at(double t) { return kSimStart + durationFromSeconds(t); }
+
+TruthFrame ball(double t, double y) {
+  TruthFrame truth;
+  truth.time = at(t);
+  truth.state[kBallY] = y;
+  return truth;
+}
+
+TEST(PushMetrics, MeasuresExcursionAndReturnOfADecay) {
+  PushMetrics metrics({{at(2), at(2.5)}});
+  // Away by 0.4 m when the push ends, then back as exp(-t): 5 cm are reached ln(8) s later.
+  for (double t = 0; t < 10; t += 1e-3) {
+    metrics.add(ball(t, 1 + (t < 2 ? 0 : t < 2.5 ? 0.8 * (t - 2) : 0.4 * std::exp(-(t - 2.5)))));
+  }
+  EXPECT_NEAR(metrics.values().at("largest_push_excursion_m"), 0.4, 1e-3);
+  EXPECT_NEAR(metrics.values().at("longest_push_return_s"), std::log(8.0), 2e-3);
+}
+
+TEST(PushMetrics, ABallThatStaysAwayHasNoReturnTime) {
+  PushMetrics metrics({{at(1), at(1.5)}});
+  for (double t = 0; t < 5; t += 1e-2) metrics.add(ball(t, t < 1.1 ? 0 : 0.2));
+  EXPECT_NEAR(metrics.values().at("largest_push_excursion_m"), 0.2, 1e-9);
+  EXPECT_EQ(metrics.values().count("longest_push_return_s"), 0u);
+}
+
+TEST(PushMetrics, EachPushIsJudgedFromWhereItBegan) {
+  PushMetrics metrics({{at(1), at(1.5)}, {at(3), at(3.5)}});
+  for (double t = 0; t < 5; t += 1e-2) {
+    metrics.add(ball(t, t < 1.1 ? 0 : t < 1.2 ? 0.1 : t < 3.1 ? 0.04 : t < 3.6 ? 0.24 : 0.04));
+  }
+  EXPECT_NEAR(metrics.values().at("largest_push_excursion_m"), 0.2, 1e-9);
+  EXPECT_NEAR(metrics.values().at("longest_push_return_s"), 0.1, 0.02);
+}
+
+TEST(PushMetrics, WithoutPushesThereIsNothingToSay) {
+  PushMetrics metrics({});
+  metrics.add(ball(1, 1));
+  EXPECT_TRUE(metrics.values().empty());
+}
+
+}  // namespace
+}  // namespace ballbot
