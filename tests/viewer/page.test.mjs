@@ -76,10 +76,13 @@ onPage('draws the robot where it is, not an empty canvas', 'replay', {}, async (
 onPage('plays, and stops when told', 'replay', {}, async (page) => {
   await nextFrame(page);
   const still = await picture(page);
+  await page.selectOption('.speed', '0.1'); // however busy the machine, the end is far
   await page.click('.play');
-  await page.waitForFunction(() => Number(document.querySelector('.transport').dataset.time) > 0.3);
+  await page.waitForFunction(() => Number(document.querySelector('.transport').dataset.time) > 0.05);
   await page.click('.play');
+  await page.waitForSelector('.transport[data-playing="false"]');
   const stopped = await shownTime(page);
+  assert.ok(stopped < 10);
   await nextFrame(page);
   assert.notEqual((await picture(page)).sum, still.sum);
   await page.waitForTimeout(150);
@@ -230,6 +233,15 @@ for (const kind of ['replay', 'no-replay', 'failed']) {
     }
   });
 }
+
+onPage('waits with drawing until its window has a size', 'replay', { width: 40 }, async (page) => {
+  await page.setViewportSize({ width: 1280, height: 800 });
+  await nextFrame(page);
+  await nextFrame(page);
+  const [plot, body] = await page.$eval('.uplot', (n) => [n.clientWidth, n.parentElement.clientWidth]);
+  assert.ok(plot > 600);
+  assert.equal(plot, body);
+});
 
 // Contrast ratio of two opaque colours after WCAG 2.
 function contrast(a, b) {

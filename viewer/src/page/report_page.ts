@@ -10,6 +10,9 @@ import { header } from './header';
 import { onPrint, paperSceneHeight, paperSharpness, paperWidth } from './printing';
 import { manifest, metricTables, requirementTable } from './tables';
 
+// A browser may show a page before its window has a size; plots wait for room to draw in [CSS px].
+const narrowest = 100;
+
 // Width that the plots of a column have [CSS px].
 function plotWidth(column: HTMLElement): number {
   const figure = column.querySelector('.plot');
@@ -37,27 +40,33 @@ export function showReport(report: ReportJson, root: HTMLElement): void {
   const main = element('main', { class: replay ? 'report-main' : 'report-main no-replay' }, side, column);
   root.append(header(report), main);
 
+  let drawnWidth = 0;
   const draw = () => {
     const theme = readTheme();
-    figures.draw(theme, plotWidth(column));
     replay?.view?.setTheme(theme);
+    const width = plotWidth(column);
+    if (width < narrowest) return;
+    figures.draw(theme, width);
+    drawnWidth = width;
+  };
+  const fit = () => {
+    const width = plotWidth(column);
+    const printing = document.documentElement.classList.contains('printing');
+    if (width === drawnWidth || width < narrowest || printing) return;
+    if (drawnWidth === 0) draw();
+    else figures.resize(width);
+    drawnWidth = width;
   };
   draw();
-
-  let drawnWidth = plotWidth(column);
-  new ResizeObserver(() => {
-    const width = plotWidth(column);
-    if (width === drawnWidth || document.documentElement.classList.contains('printing')) return;
-    drawnWidth = width;
-    figures.resize(width);
-  }).observe(column);
+  new ResizeObserver(fit).observe(column);
   onThemeChange(draw);
-  onPrint(() => {
+  const drawOnPaper = () => {
     const theme = readTheme();
     figures.draw(theme, paperWidth, paperSharpness);
     replay?.view?.setTheme(theme);
     replay?.view?.drawOnPaper(paperWidth, paperSceneHeight, paperSharpness);
-  }, () => {
+  };
+  onPrint(drawOnPaper, () => {
     draw();
     replay?.view?.drawOnScreen();
   });
