@@ -79,7 +79,7 @@ TaskSchedule TaskSchedule::read(ConfigReader& in, const RobotParameters& robot) 
   return s;
 }
 
-void TaskSchedule::at(double t, Tasks& out) const {
+void TaskSchedule::at(double t, double now, Tasks& out) const {
   out.ee_position_weight = ee_position_weight.value(t);
   out.ee_orientation_weight = ee_orientation_weight.value(t);
   out.ee_velocity_weight = ee_velocity_weight.value(t);
@@ -94,16 +94,16 @@ void TaskSchedule::at(double t, Tasks& out) const {
   out.arm_torque_weight = arm_torque_weight.value(t)[0];
   out.contact_force_weight = contact_force_weight.value(t);
 
-  const Vector3 angles = ee_orientation.value(t);
-  out.p_WE = ee_position.value(t);
+  const Vector3 angles = ee_orientation.value(t, now);
+  out.p_WE = ee_position.value(t, now);
   out.R_WE = rotationFromYawPitchRoll(angles[0], angles[1], angles[2]);
   out.v_WE_W = ee_position.rate(t);
   out.w_WE_W = rateFromYawPitchRoll(angles, ee_orientation.rate(t));
-  out.ball_position = ball_position.value(t);
+  out.ball_position = ball_position.value(t, now);
   out.ball_velocity = ball_position.rate(t);
-  out.yaw = yaw.value(t)[0];
-  out.arm_position = arm_position.value(t);
-  out.contact_force_C = contact_force.value(t);
+  out.yaw = yaw.value(t, now)[0];
+  out.arm_position = arm_position.value(t, now);
+  out.contact_force_C = contact_force.value(t, now);
   out.R_WC = contactFrame(contact_normal_W);
 }
 

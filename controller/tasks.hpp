@@ -56,8 +56,8 @@ class TaskSchedule {
   /// arm_torque, contact_force, contact_frame.
   static TaskSchedule read(ConfigReader& in, const RobotParameters& robot);
 
-  /// Tasks at time t [s]. Free of allocation.
-  void at(double t, Tasks& out) const;
+  /// Tasks at time t [s] as known at `now` <= t, see TimeSignal::value. Free of allocation.
+  void at(double t, double now, Tasks& out) const;
 
   TimedWeight<3> ee_position_weight, ee_orientation_weight, ee_velocity_weight, ee_rate_weight;
   TimedWeight<2> ball_position_weight, ball_velocity_weight;

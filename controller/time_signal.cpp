@@ -17,10 +17,11 @@ constexpr double kLongest_s = 1e6;
 }  // namespace
 
 template <int N>
-typename TimeSignal<N>::Vector TimeSignal<N>::value(double t) const {
+typename TimeSignal<N>::Vector TimeSignal<N>::value(double t, double now) const {
   Vector out = initial_;
   for (const Move& m : moves_) {
-    if (t < m.at) continue;
+    const bool is_step = m.over == 0;
+    if ((is_step ? now : t) < m.at) continue;
     if (m.radius == 0) {
       const double share = m.over > 0 ? std::min(1.0, (t - m.at) / m.over) : 1.0;
       out += share * m.by;

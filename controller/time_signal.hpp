@@ -17,7 +17,10 @@ class TimeSignal {
 
   explicit TimeSignal(const Vector& initial = Vector::Zero()) : initial_(initial) {}
 
-  Vector value(double t) const;
+  Vector value(double t) const { return value(t, t); }
+  /// As known at `now` <= t: a step is an operator's command that nobody knows before it comes, so
+  /// it counts from `now` = its time on; ramps and circles are planned and count ahead of time.
+  Vector value(double t, double now) const;
   /// Time derivative; zero at a step.
   Vector rate(double t) const;
 

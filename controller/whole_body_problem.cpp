@@ -58,7 +58,7 @@ template <int NU>
 void WholeBodyProblem<NU>::setTasks(const TaskSchedule& schedule, double t0) noexcept {
   double t = t0;
   for (std::size_t k = 0; k < tasks_.size(); ++k) {
-    schedule.at(t, tasks_[k]);
+    schedule.at(t, t0, tasks_[k]);
     if (k < steps_.size()) t += steps_[k].H;
   }
 }

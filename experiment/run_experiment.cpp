@@ -7,11 +7,13 @@
 #include "cosim/recorder.hpp"
 #include "cosim/serve.hpp"
 #include "cosim/step_master.hpp"
+#include "experiment/ee_reference.hpp"
 #include "experiment/plant_link.hpp"
 #include "experiment/robot_controller.hpp"
 #include "experiment/run_record.hpp"
 #include "experiment/run_report.hpp"
 #include "metrics/balance_metrics.hpp"
+#include "metrics/ee_step_metrics.hpp"
 #include "metrics/push_metrics.hpp"
 #include "plant/environment.hpp"
 
@@ -39,6 +41,7 @@ RecorderOptions readRecorderOptions(const Scenario& scenario, const std::string&
 std::vector<std::string> knownMetrics(const RobotController& controller) {
   std::vector<std::string> names = BalanceMetrics::names();
   for (const std::string& name : PushMetrics::names()) names.push_back(name);
+  for (const std::string& name : EeStepMetrics::names()) names.push_back(name);
   for (const auto& counter : controller.counters()) names.push_back(counter.first);
   return names;
 }
@@ -67,6 +70,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   judge(scenario.requirements, {}, known_metrics);
   readRecorderOptions(scenario, "");
   checkPlant(scenario);
+  const EeReference reference = readEeReference(scenario);
 
   const RunFolder folder = RunFolder::create(out, scenario.name);
   writeScenario(scenario, folder.path());
@@ -87,6 +91,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   Recorder recorder(readRecorderOptions(scenario, folder.logFile()));
   BalanceMetrics metrics(scenario.release);
   PushMetrics push_metrics(pushIntervals(scenario));
+  EeStepMetrics step_metrics(reference.initial, reference.steps, kSimStart + scenario.duration);
 
   MasterOptions master_options;
   master_options.end = kSimStart + scenario.duration;
@@ -96,6 +101,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
     if (tick.truth) {
       metrics.add(*tick.truth, tick.control.command);
       push_metrics.add(*tick.truth);
+      step_metrics.add(*tick.truth);
     }
     if (options.progress) options.progress(tick.time);
     return !metrics.fell();
@@ -123,6 +129,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   result.trajectory_digest = recorder.trajectoryDigest();
   result.metrics = metrics.values();
   for (const auto& value : push_metrics.values()) result.metrics.insert(value);
+  for (const auto& value : step_metrics.values()) result.metrics.insert(value);
   for (const auto& counter : controller.counters()) result.metrics.insert(counter);
   result.verdicts = judge(scenario.requirements, result.metrics, known_metrics);
   result.passed = result.completed && !result.fell;

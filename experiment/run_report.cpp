@@ -7,6 +7,7 @@
 #include "core/config_reader.hpp"
 #include "cosim/log_reader.hpp"
 #include "experiment/build_info.hpp"
+#include "experiment/ee_reference.hpp"
 #include "experiment/log_tables.hpp"
 #include "experiment/run_replay.hpp"
 #include "experiment/text_file.hpp"
@@ -104,15 +105,40 @@ PlotGroup torqueGroup(const std::vector<LogTable>& tables, const RobotParameters
   return group;
 }
 
+/// The end-effector's pose with its reference, where there is one.
+PlotGroup handGroup(const RunLog& log, const EeReference& reference) {
+  PlotGroup group{"End-effector", reference.steps.empty() ? "" : "Dashed: what was asked for.", {}, {}};
+  PlotAxes position{"position", "m", {}, {}}, angles{"orientation", "deg", {}, {}};
+  const char* const names[kPoseDim] = {"x", "y", "z", "yaw", "pitch", "roll"};
+  for (int i = 0; i < kPoseDim; ++i) {
+    PlotSeries measured{names[i], SeriesStyle::kMeasured, i % 3, {}, {}};
+    PlotSeries asked{std::string(names[i]) + " reference", SeriesStyle::kReference, i % 3, {}, {}};
+    const double scale = i < 3 ? 1 : kDegPerRad;
+    for (const auto& m : log.truth) {
+      TruthFrame truth;
+      truth.time = simTimeFromNs(m.sim_time_ns);
+      truth.p_WE << m.p_WE[0], m.p_WE[1], m.p_WE[2];
+      truth.quat_WE << m.quat_WE[0], m.quat_WE[1], m.quat_WE[2], m.quat_WE[3];
+      measured.t.push_back(toSeconds(truth.time));
+      measured.values.push_back(scale * eePose(truth)[i]);
+      asked.values.push_back(scale * reference.at(truth.time)[i]);
+    }
+    asked.t = measured.t;
+    PlotAxes& axes = i < 3 ? position : angles;
+    if (!reference.steps.empty()) axes.series.push_back(std::move(asked));
+    axes.series.push_back(std::move(measured));
+  }
+  group.axes = {std::move(position), std::move(angles)};
+  return group;
+}
+
 PlotGroup armGroup(const std::vector<LogTable>& tables) {
-  PlotGroup group{"Arm and end-effector", "", {}, {}};
-  AxesBuilder joints(tables, "joint angle", "rad"), hand(tables, "end-effector position", "m");
-  const char* const axes[] = {"x", "y", "z"};
+  PlotGroup group{"Arm", "", {}, {}};
+  AxesBuilder joints(tables, "joint angle", "rad");
   for (int i = 0; i < 3; ++i) {
     joints.line("truth", kArms[i], fmt::format("joint {}", i + 1), SeriesStyle::kMeasured, i);
-    hand.line("truth", std::string("p_WE_") + axes[i], axes[i], SeriesStyle::kMeasured, i);
   }
-  group.axes = {joints.axes(), hand.axes()};
+  group.axes = {joints.axes()};
   return group;
 }
 
@@ -166,7 +192,8 @@ void writeRunReport(const Scenario& scenario, const RunResult& result, const Run
                                                                   ? result.metrics.at("largest_tilt_deg")
                                                                   : std::nan(""))}};
   addVerdicts(result, data);
-  data.groups = {ballGroup(tables), baseGroup(tables), torqueGroup(tables, robot), armGroup(tables)};
+  data.groups = {ballGroup(tables), baseGroup(tables), handGroup(log, readEeReference(scenario)),
+                 torqueGroup(tables, robot), armGroup(tables)};
   data.phases = phasesOf(scenario, pushes);
   if (!log.truth.empty()) data.replay = makeReplay(log, robot, pushes);
   data.manifest = {{"scenario", scenario.name}, {"seed", std::to_string(scenario.seed)},
