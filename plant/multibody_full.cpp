@@ -1,10 +1,10 @@
 #include <algorithm>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "plant/multibody_structures.hpp"
 #include "plant/robot_tree.hpp"
+#include "plant/small_cholesky.hpp"
 
 namespace ballbot {
 namespace {
@@ -44,7 +44,7 @@ class FullMultibody final : public Multibody {
         options_(options),
         tree_(robot, withoutRotors(robot.base, kBaseBody, robot, options), linksOf(robot, options),
               options.ball_spin),
-        rolling_(robot, options.ball_spin) {
+        rolling_(robot) {
     addWheels();
     if (options.rotors) addRotors();
     tree_.finishTopology();
@@ -53,8 +53,8 @@ class FullMultibody final : public Multibody {
     constraint_force_.resize(nu_);
     constraint_force_ = 0;
     for (SimTK::Vector& column : response_) column.resize(nu_);
-    wheel_q_ = tree_.armQOffset() + kArmJointCount;
-    wheel_u_ = tree_.armUOffset() + kArmJointCount;
+    wheel_q_ = tree_.sharedQ();
+    wheel_u_ = tree_.sharedU();
   }
 
   int stateDim() const override { return nq_ + nu_; }
@@ -120,7 +120,7 @@ class FullMultibody final : public Multibody {
 
   BaseAcceleration baseAcceleration(const double* ydot) const override {
     const double* udot = ydot + nq_;
-    return {{udot[0], udot[1], 0}, Eigen::Map<const Vector3>(udot + tree_.omegaOffset())};
+    return {{udot[0], udot[1], 0}, Eigen::Map<const Vector3>(udot + kOmegaU)};
   }
 
   JointAcceleration jointAcceleration(const double* ydot) const override {
@@ -136,20 +136,24 @@ class FullMultibody final : public Multibody {
   void project(double* y) const override {
     tree_.normalizeQuaternion(y);
     double* u = y + nq_;
-    Eigen::Map<Vector3>(u + wheel_u_) = rolling_.rates(tree_.rotationFromQ(y), u);
+    Eigen::Map<Vector3>(u + wheel_u_) =
+        rolling_.rates(tree_.rotationFromQ(y), {u[0], u[1], 0},
+                       Eigen::Map<const Vector3>(u + kOmegaU), options_.ball_spin ? u[kSpinU] : 0);
   }
 
   Vector3 wheelSlip() const override {
-    const double* u = &tree_.state.getU()[0];
-    const Vector3 rates = Eigen::Map<const Vector3>(u + wheel_u_);
-    return robot_.wheels.radius * (rates - rolling_.rates(tree_.base().R_WB, u));
+    const BaseMotion& m = tree_.base();
+    const Vector3 rates = Eigen::Map<const Vector3>(&tree_.state.getU()[wheel_u_]);
+    return robot_.wheels.radius * (rates - rolling_.rates(m.R_WB, m.v_WK_W, m.w_WB_W, m.ball_spin));
   }
 
   double energy() const override { return tree_.kineticEnergy() + tree_.potentialEnergy(); }
 
  private:
-  int jointQ(int i) const { return i < kWheelCount ? wheel_q_ + i : tree_.armQOffset() + i - 3; }
-  int jointU(int i) const { return i < kWheelCount ? wheel_u_ + i : tree_.armUOffset() + i - 3; }
+  int jointQ(int i) const {
+    return i < kWheelCount ? wheel_q_ + i : RobotTree::kArmQ + i - kWheelCount;
+  }
+  int jointU(int i) const { return i < kWheelCount ? wheel_u_ + i : kArmU + i - kWheelCount; }
   int rotorQ(int i) const { return wheel_q_ + kWheelCount + i; }
   int rotorU(int i) const { return wheel_u_ + kWheelCount + i; }
 
@@ -183,23 +187,26 @@ class FullMultibody final : public Multibody {
   /// G M^-1 G^T. One articulated-body pass per row; Simbody's general constraint solver takes
   /// twice the time of the whole tree for the same three rows.
   void addRollingConstraint() {
-    const WheelRolling::Rows rows = rolling_.rows(tree_.base().R_WB);
-    const Vector3 bias = rolling_.bias(tree_.base());
-    const int n = static_cast<int>(rows.cols());
-    const auto rowsTimes = [&](const SimTK::Vector& v) -> Vector3 {
-      return Eigen::Map<const Vector3>(&v[wheel_u_]) -
-             rows * Eigen::Map<const Eigen::VectorXd>(&v[0], n);
+    const int n = tree_.sharedU();
+    std::array<SharedRow, kWheelCount> rows;
+    for (int i = 0; i < kWheelCount; ++i) rows[i] = rolling_.row(tree_.base().R_WB, i);
+    const auto rowTimes = [&](int i, const SimTK::Vector& v) {
+      double sum = v[wheel_u_ + i];
+      for (int k = 0; k < n; ++k) sum -= rows[i][k] * v[k];
+      return sum;
     };
-    Matrix3 A;  // G M^-1 G^T
+    SmallMatrix<kWheelCount> A;  // G M^-1 G^T
     for (int i = 0; i < kWheelCount; ++i) {
-      for (int k = 0; k < n; ++k) constraint_force_[k] = -rows(i, k);
+      for (int k = 0; k < n; ++k) constraint_force_[k] = -rows[i][k];
       constraint_force_[wheel_u_ + i] = 1;
       tree_.matter.multiplyByMInv(tree_.state, constraint_force_, response_[i]);
       constraint_force_[wheel_u_ + i] = 0;
-      A.col(i) = rowsTimes(response_[i]);
+      for (int j = i; j < kWheelCount; ++j) A[j][i] = rowTimes(j, response_[i]);
     }
-    const Vector3 rhs = bias - rowsTimes(udot_);
-    const Vector3 multipliers = A.llt().solve(rhs);
+    const Vector3 bias = rolling_.bias(tree_.base());
+    SmallVector<kWheelCount> multipliers;
+    for (int i = 0; i < kWheelCount; ++i) multipliers[i] = bias[i] - rowTimes(i, udot_);
+    solveCholesky<kWheelCount>(A, multipliers, kWheelCount);
     for (int k = 0; k < nu_; ++k) {
       udot_[k] += response_[0][k] * multipliers[0] + response_[1][k] * multipliers[1] +
                   response_[2][k] * multipliers[2];

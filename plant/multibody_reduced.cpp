@@ -1,11 +1,10 @@
 #include <algorithm>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
-#include "model/frames.hpp"
 #include "plant/multibody_structures.hpp"
 #include "plant/robot_tree.hpp"
+#include "plant/small_cholesky.hpp"
 
 namespace ballbot {
 namespace {
@@ -44,14 +43,13 @@ std::array<BodyInertia, 1 + kArmJointCount> bodiesOf(const RobotParameters& robo
 /// one pass per column and more time than everything else together.
 ///
 /// y = (q, u of Simbody | wheel angles | rotor angles, rotor rates, both behind the gear).
-template <bool kBallSpin>
 class ReducedMultibody final : public Multibody {
  public:
   ReducedMultibody(const RobotParameters& robot, const MultibodyOptions& options)
       : options_(options),
         bodies_(bodiesOf(robot, options)),
         tree_(robot, bodies_[0], {bodies_[1], bodies_[2], bodies_[3]}, options.ball_spin),
-        rolling_(robot, options.ball_spin),
+        rolling_(robot),
         mounts_(actuatorMounts(robot)),
         wheel_inertia_(robot.wheels.spin_inertia),
         ball_inertia_(robot.ball.inertia),
@@ -76,20 +74,22 @@ class ReducedMultibody final : public Multibody {
     double* u = y + nq_;
     tree_.setVelocity(y, nu, ball_spin, u);
     if (!options_.rotors) return;
-    Eigen::Map<Vector3>(y + rotorRates()) = rolling_.rates(tree_.rotationFromQ(y), u);
+    Eigen::Map<Vector3>(y + rotorRates()) =
+        rolling_.rates(tree_.rotationFromQ(y), {u[0], u[1], 0},
+                       Eigen::Map<const Vector3>(u + kOmegaU), options_.ball_spin ? ball_spin : 0);
     Eigen::Map<Vector3>(y + rotorRates() + kWheelCount) = nu.segment<3>(kArmRate1);
   }
 
   void realize(const double* y) override {
     tree_.realize(y, y + nq_);
     const double* u = y + nq_;
-    rows_ = rolling_.rows(tree_.base().R_WB);
+    const BaseMotion& base = tree_.base();
     JointMotion& m = joints_;
     m.angle.head<kWheelCount>() = Eigen::Map<const Vector3>(y + wheelAngles());
-    m.angle.tail<kArmJointCount>() = Eigen::Map<const Vector3>(y + tree_.armQOffset());
+    m.angle.tail<kArmJointCount>() = Eigen::Map<const Vector3>(y + RobotTree::kArmQ);
     m.velocity.head<kWheelCount>() =
-        rows_ * Eigen::Map<const Eigen::Matrix<double, kPlatform, 1>>(u);
-    m.velocity.tail<kArmJointCount>() = Eigen::Map<const Vector3>(u + tree_.armUOffset());
+        rolling_.rates(base.R_WB, base.v_WK_W, base.w_WB_W, base.ball_spin);
+    m.velocity.tail<kArmJointCount>() = Eigen::Map<const Vector3>(u + kArmU);
     m.rotor_angle = m.angle;
     m.rotor_velocity = m.velocity;
     if (options_.rotors) {
@@ -115,15 +115,16 @@ class ReducedMultibody final : public Multibody {
     // M udot + h - f at udot = 0, of the bodies that Simbody knows.
     tree_.matter.calcResidualForceIgnoringConstraints(tree_.state, tree_.mobilityForces(),
                                                       tree_.bodyForces(), no_udot_, residual_);
-    Vector force = -Eigen::Map<const Vector>(&residual_[0]);
+    SmallVector<kSharedDim> force{};
+    for (int k = 0; k < nu_; ++k) force[k] = -residual_[k];
     assembleMass();
     applyWheels(loads, force);
-    mass_.llt().solveInPlace(force);
-    const Vector& udot = force;
+    solveCholesky<kSharedDim>(mass_, force, nu_);
+    const SmallVector<kSharedDim>& udot = force;
 
     const SimTK::Vector& qdot = tree_.state.getQDot();
     std::copy_n(&qdot[0], nq_, ydot);
-    Eigen::Map<Vector>(ydot + nq_) = udot;
+    std::copy_n(udot.data(), nu_, ydot + nq_);
     Eigen::Map<Vector3>(ydot + wheelAngles()) = joints_.velocity.head<kWheelCount>();
     if (options_.rotors) rotorDerivative(loads, udot, ydot);
   }
@@ -138,15 +139,17 @@ class ReducedMultibody final : public Multibody {
 
   BaseAcceleration baseAcceleration(const double* ydot) const override {
     const double* udot = ydot + nq_;
-    return {{udot[0], udot[1], 0}, Eigen::Map<const Vector3>(udot + tree_.omegaOffset())};
+    return {{udot[0], udot[1], 0}, Eigen::Map<const Vector3>(udot + kOmegaU)};
   }
 
   JointAcceleration jointAcceleration(const double* ydot) const override {
     const double* udot = ydot + nq_;
     JointAcceleration a;
-    a.joint.head<kWheelCount>() =
-        rolling_.rates(tree_.base().R_WB, udot) + rolling_.bias(tree_.base());
-    a.joint.tail<kArmJointCount>() = Eigen::Map<const Vector3>(udot + tree_.armUOffset());
+    a.joint.head<kWheelCount>() = rolling_.rates(tree_.base().R_WB, {udot[0], udot[1], 0},
+                                                 Eigen::Map<const Vector3>(udot + kOmegaU),
+                                                 options_.ball_spin ? udot[kSpinU] : 0) +
+                                  rolling_.bias(tree_.base());
+    a.joint.tail<kArmJointCount>() = Eigen::Map<const Vector3>(udot + kArmU);
     a.rotor = a.joint;
     if (options_.rotors) a.rotor = Eigen::Map<const JointVector>(ydot + rotorRates());
     return a;
@@ -168,13 +171,6 @@ class ReducedMultibody final : public Multibody {
   }
 
  private:
-  /// Of u = (vx, vy, [spin], w_WB_W | arm rates): the part that turns wheels, and all of it.
-  static constexpr int kOmega = kBallSpin ? 3 : 2;
-  static constexpr int kPlatform = kOmega + 3;
-  static constexpr int kDim = kPlatform + kArmJointCount;
-  using Vector = Eigen::Matrix<double, kDim, 1>;
-  using BodyJacobian = Eigen::Matrix<double, 3, kDim>;
-
   double reflectedInertia(int i) const {
     return options_.gear_ratio[i] * options_.gear_ratio[i] * options_.rotor_inertia[i];
   }
@@ -191,54 +187,65 @@ class ReducedMultibody final : public Multibody {
     }
   }
 
-  /// M = sum over bodies of m Jv^T Jv + Jw^T I Jw, J of the centre of mass.
+  /// M = sum over bodies of m Jv^T Jv + Jw^T I Jw, J of the centre of mass; lower triangle.
   void assembleMass() {
-    mass_.setZero();
-    mass_(0, 0) = mass_(1, 1) = rolling_mass_;
-    if (kBallSpin) mass_(2, 2) = ball_inertia_;
-    BodyJacobian Jw = BodyJacobian::Zero(), Jv = BodyJacobian::Zero();
-    Jw.template middleCols<3>(kOmega).setIdentity();
-    Jv(0, 0) = Jv(1, 1) = 1;
+    for (auto& row : mass_) row.fill(0);
+    mass_[0][0] = mass_[1][1] = rolling_mass_;
+    mass_[kSpinU][kSpinU] = ball_inertia_;
     for (int b = 0; b <= kArmJointCount; ++b) {
       const BodyMotion& m = tree_.body(static_cast<BodyIndex>(kBaseBody + b));
-      if (b > 0) Jw.col(kPlatform + b - 1) = axis_W_[kWheelCount + b - 1];
       const Vector3 p = m.p_WL + m.R_WL * bodies_[b].p_LLcm_L;
-      Jv.template middleCols<3>(kOmega) = -skew(p - tree_.base().p_WK);
-      for (int j = 1; j <= b; ++j) {
-        const Vector3& origin = tree_.body(static_cast<BodyIndex>(kBaseBody + j)).p_WL;
-        Jv.col(kPlatform + j - 1) = axis_W_[kWheelCount + j - 1].cross(p - origin);
-      }
       const Matrix3 I = m.R_WL * bodies_[b].I_LLcm_L * m.R_WL.transpose();
-      const BodyJacobian IJw = I * Jw;
-      mass_.noalias() += bodies_[b].mass * Jv.transpose().lazyProduct(Jv);
-      mass_.noalias() += Jw.transpose().lazyProduct(IJw);
+      const int columns = kArmU + b;  // joints further out do not move it
+      std::array<Vector3, kArmU + kArmJointCount> Jv, Jw, IJw;
+      for (int k = 0; k < 2; ++k) {
+        Jv[k] = Vector3::Unit(k);
+        Jw[k].setZero();
+      }
+      for (int k = 0; k < 3; ++k) {
+        Jw[kOmegaU + k] = Vector3::Unit(k);
+        Jv[kOmegaU + k] = Vector3::Unit(k).cross(p - tree_.base().p_WK);
+      }
+      for (int j = 0; j < b; ++j) {
+        const Vector3& axis = axis_W_[kWheelCount + j];
+        Jw[kArmU + j] = axis;
+        Jv[kArmU + j] = axis.cross(p - tree_.body(static_cast<BodyIndex>(kLink1Body + j)).p_WL);
+      }
+      for (int k = 0; k < columns; ++k) IJw[k] = I * Jw[k];
+      for (int i = 0; i < columns; ++i) {
+        for (int j = 0; j <= i; ++j) {
+          mass_[i][j] += bodies_[b].mass * Jv[i].dot(Jv[j]) + Jw[i].dot(IJw[j]);
+        }
+      }
     }
   }
 
-  void applyWheels(const MultibodyLoads& loads, Vector& force) {
+  void applyWheels(const MultibodyLoads& loads, SmallVector<kSharedDim>& force) {
     const Vector3 bias = rolling_.bias(tree_.base());
     for (int i = 0; i < kWheelCount; ++i) {
       const Vector3& d = axis_W_[i];
-      Eigen::Matrix<double, kPlatform, 1> row = rows_.row(i).transpose();
-      force.template head<kPlatform>() += loads.joint_torque[i] * row;
-      row.template tail<3>() += d;  // now the row of the wheel's spin in W
-      force.template head<kPlatform>() -= wheel_inertia_ * bias[i] * row;
-      force.template segment<3>(kOmega) -=
-          wheel_inertia_ * wheel_spin_[i] * tree_.base().w_WB_W.cross(d);
-      mass_.template topLeftCorner<kPlatform, kPlatform>() +=
-          wheel_inertia_ * row * row.transpose();
+      SharedRow row = rolling_.row(tree_.base().R_WB, i);
+      for (int k = 0; k < nu_; ++k) force[k] += loads.joint_torque[i] * row[k];
+      for (int k = 0; k < 3; ++k) row[kOmegaU + k] += d[k];  // now that of the wheel's spin in W
+      for (int k = 0; k < nu_; ++k) force[k] -= wheel_inertia_ * bias[i] * row[k];
+      const Vector3 gyroscopic = wheel_inertia_ * wheel_spin_[i] * tree_.base().w_WB_W.cross(d);
+      for (int k = 0; k < 3; ++k) force[kOmegaU + k] -= gyroscopic[k];
+      for (int k = 0; k < nu_; ++k) {
+        for (int l = 0; l <= k; ++l) mass_[k][l] += wheel_inertia_ * row[k] * row[l];
+      }
     }
   }
 
   /// J (N ddtheta + d . alpha_carrier) = shaft torque.
-  void rotorDerivative(const MultibodyLoads& loads, const Vector& udot, double* ydot) const {
-    Vector3 alpha = udot.template segment<3>(kOmega);  // of the carrier, link by link
+  void rotorDerivative(const MultibodyLoads& loads, const SmallVector<kSharedDim>& udot,
+                       double* ydot) const {
+    Vector3 alpha(udot[kOmegaU], udot[kOmegaU + 1], udot[kOmegaU + 2]);  // of carrier after carrier
     for (int i = 0; i < kJointCount; ++i) {
       ydot[rotorAngles() + i] = joints_.rotor_velocity[i];
       ydot[rotorRates() + i] = loads.rotor_torque[i] / reflectedInertia(i) -
                                axis_W_[i].dot(alpha) / options_.gear_ratio[i];
       if (i < kWheelCount) continue;
-      alpha += udot[kPlatform + i - kWheelCount] * axis_W_[i] +
+      alpha += udot[kArmU + i - kWheelCount] * axis_W_[i] +
                joints_.velocity[i] * tree_.body(mounts_[i].parent).w_WL_W.cross(axis_W_[i]);
     }
   }
@@ -257,11 +264,10 @@ class ReducedMultibody final : public Multibody {
 
   // Of the current state:
   JointMotion joints_;
-  Eigen::Matrix<double, kWheelCount, kPlatform> rows_;
   std::array<Vector3, kJointCount> axis_W_;
   JointVector wheel_spin_, rotor_spin_;  ///< about the axle, in W [rad/s]
 
-  Eigen::Matrix<double, kDim, kDim> mass_;
+  SmallMatrix<kSharedDim> mass_;
   SimTK::Vector residual_;
   const SimTK::Vector no_udot_;
 };
@@ -270,8 +276,7 @@ class ReducedMultibody final : public Multibody {
 
 std::unique_ptr<Multibody> makeReducedMultibody(const RobotParameters& robot,
                                                 const MultibodyOptions& options) {
-  if (options.ball_spin) return std::make_unique<ReducedMultibody<true>>(robot, options);
-  return std::make_unique<ReducedMultibody<false>>(robot, options);
+  return std::make_unique<ReducedMultibody>(robot, options);
 }
 
 }  // namespace ballbot

@@ -90,16 +90,16 @@ RobotTree::RobotTree(const RobotParameters& robot, const BodyInertia& base,
       matter.Ground(), new HorizontalMobilizer(matter), SimTK::Transform(Vec3(0, 0, r)),
       toBody(ball_spin ? nothing : rolling, "the ball"), SimTK::Transform());
   bodies_[kBallBody] = carriage;
-  if (ball_spin) {
-    rolling.I_LLcm_L = robot.ball.inertia * Matrix3::Identity();
-    bodies_[kBallBody] = SimTK::MobilizedBody::Pin(carriage, toBody(rolling, "the ball"));
-  }
   bodies_[kBaseBody] = SimTK::MobilizedBody::Ball(carriage, toBody(base, "the base"));
   for (int j = 0; j < kArmJointCount; ++j) {
     const ArmLink& link = robot.arm[j];
     bodies_[kLink1Body + j] = SimTK::MobilizedBody::Pin(
         bodies_[kBaseBody + j], pinFrame(link.axis, link.p_PJ_P), toBody(links[j], link.name),
         pinFrame(link.axis, Vector3::Zero()));
+  }
+  if (ball_spin) {
+    rolling.I_LLcm_L = robot.ball.inertia * Matrix3::Identity();
+    bodies_[kBallBody] = SimTK::MobilizedBody::Pin(carriage, toBody(rolling, "the ball"));
   }
   for (int b = 0; b < kBodyCount; ++b) index_[b] = bodies_[b].getMobilizedBodyIndex();
 
@@ -143,7 +143,7 @@ void RobotTree::realize(const double* q, const double* u) {
     motion_[b] = {toEigen(X.p()), toEigen(X.R()), toEigen(V[1]), toEigen(V[0])};
   }
   const BodyMotion& base = motion_[kBaseBody];
-  base_motion_ = {base.p_WL, base.R_WL, base.v_WL_W, base.w_WL_W, ball_spin_ ? u[2] : 0};
+  base_motion_ = {base.p_WL, base.R_WL, base.v_WL_W, base.w_WL_W, ball_spin_ ? u[kSpinU] : 0};
   motion_[kBallBody].p_WL = base.p_WL;
   motion_[kBallBody].v_WL_W = base.v_WL_W;
   motion_[kBallBody].w_WL_W = {-u[1] / ball_radius_, u[0] / ball_radius_, base_motion_.ball_spin};
@@ -164,15 +164,15 @@ void RobotTree::collectForces(const MultibodyLoads& loads) {
       const Vector3 torque = f.p_BP_B.cross(f.force_W);
       mobility_forces_[0] += force[0] + torque.y() / ball_radius_;
       mobility_forces_[1] += force[1] - torque.x() / ball_radius_;
-      if (ball_spin_) mobility_forces_[2] += torque.z();
+      if (ball_spin_) mobility_forces_[kSpinU] += torque.z();
     } else {
       const Vector3 arm = motion_[f.body].R_WL * f.p_BP_B;
       body_forces_[index_[f.body]] += SpatialVec(toSimTK(arm.cross(f.force_W)), force);
     }
   }
-  if (ball_spin_) mobility_forces_[2] += loads.ball_spin_torque;
+  if (ball_spin_) mobility_forces_[kSpinU] += loads.ball_spin_torque;
   for (int j = 0; j < kArmJointCount; ++j) {
-    mobility_forces_[armUOffset() + j] += loads.joint_torque[kWheelCount + j];
+    mobility_forces_[kArmU + j] += loads.joint_torque[kWheelCount + j];
   }
 }
 
@@ -182,7 +182,7 @@ void RobotTree::place(const RobotPose& pose, double* q, double* u) const {
   q[0] = pose.px;
   q[1] = pose.py;
   const Eigen::Quaterniond quat(rotationFromYawPitchRoll(pose.yaw, pose.pitch, pose.roll));
-  q += quaternionOffset();
+  q += kQuaternionQ;
   q[0] = quat.w();
   q[1] = quat.x();
   q[2] = quat.y();
@@ -194,18 +194,18 @@ void RobotTree::setVelocity(const double* q, const VelocityVector& nu, double ba
                             double* u) const {
   u[0] = nu[kBallVx];
   u[1] = nu[kBallVy];
-  if (ball_spin_) u[2] = ball_spin;
-  Eigen::Map<Vector3>(u + omegaOffset()) = rotationFromQ(q) * nu.segment<3>(kOmegaX);
-  Eigen::Map<Vector3>(u + armUOffset()) = nu.segment<3>(kArmRate1);
+  if (ball_spin_) u[kSpinU] = ball_spin;
+  Eigen::Map<Vector3>(u + kOmegaU) = rotationFromQ(q) * nu.segment<3>(kOmegaX);
+  Eigen::Map<Vector3>(u + kArmU) = nu.segment<3>(kArmRate1);
 }
 
 Matrix3 RobotTree::rotationFromQ(const double* q) const {
-  q += quaternionOffset();
+  q += kQuaternionQ;
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
 }
 
 void RobotTree::normalizeQuaternion(double* q) const {
-  Eigen::Map<Eigen::Vector4d> quat(q + quaternionOffset());
+  Eigen::Map<Eigen::Vector4d> quat(q + kQuaternionQ);
   quat /= quat.norm();
 }
 
@@ -216,45 +216,6 @@ double RobotTree::potentialEnergy() const {
     energy += weight_[b].mass * gravity_ * p.z();
   }
   return energy;
-}
-
-std::array<ActuatorMount, kJointCount> actuatorMounts(const RobotParameters& robot) {
-  std::array<ActuatorMount, kJointCount> mounts;
-  for (int i = 0; i < kWheelCount; ++i) {
-    mounts[i] = {kBaseBody, robot.wheelAxle(i), robot.wheelCentre(i)};
-  }
-  for (int j = 0; j < kArmJointCount; ++j) {
-    mounts[kWheelCount + j] = {static_cast<BodyIndex>(kBaseBody + j), robot.arm[j].axis,
-                               robot.arm[j].p_PJ_P};
-  }
-  return mounts;
-}
-
-WheelRolling::WheelRolling(const RobotParameters& robot, bool ball_spin)
-    : ball_radius_(robot.ball.radius), wheel_radius_(robot.wheels.radius), ball_spin_(ball_spin) {
-  for (int i = 0; i < kWheelCount; ++i) axles_B_.col(i) = robot.wheelAxle(i);
-}
-
-WheelRolling::Rows WheelRolling::rows(const Matrix3& R_WB) const {
-  const Matrix3 d = (R_WB * axles_B_).transpose();  // rows: axles in W
-  const double ratio = ball_radius_ / wheel_radius_;
-  Rows out(kWheelCount, ball_spin_ ? 6 : 5);
-  out.col(0) = -d.col(1) / wheel_radius_;
-  out.col(1) = d.col(0) / wheel_radius_;
-  if (ball_spin_) out.col(2) = -ratio * d.col(2);
-  out.rightCols<3>() = ratio * d;
-  return out;
-}
-
-Vector3 WheelRolling::bias(const BaseMotion& base) const {
-  const Vector3 kappa{-base.v_WK_W.y() / ball_radius_, base.v_WK_W.x() / ball_radius_,
-                      base.ball_spin};
-  return ball_radius_ / wheel_radius_ * (base.R_WB * axles_B_).transpose() *
-         base.w_WB_W.cross(kappa);
-}
-
-Vector3 WheelRolling::rates(const Matrix3& R_WB, const double* u) const {
-  return rows(R_WB) * Eigen::Map<const Eigen::VectorXd>(u, ball_spin_ ? 6 : 5);
 }
 
 }  // namespace ballbot

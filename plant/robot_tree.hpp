@@ -6,6 +6,7 @@
 #include <Simbody.h>
 
 #include "plant/multibody.hpp"
+#include "plant/wheel_rolling.hpp"
 
 namespace ballbot {
 
@@ -23,10 +24,10 @@ SimTK::Transform pinFrame(const Vector3& axis, const Vector3& p);
 BodyInertia without(const BodyInertia& whole, BodyInertia part, const Vector3& p_WP);
 
 /// The bodies that both structures share: carriage (the ball as it rolls), base and three arm
-/// links, and where their coordinates lie in Simbody's q and u:
+/// links. Their coordinates are the first of Simbody's q and u:
 ///
-///   q = (px, py, [ball spin angle], quaternion of R_WB, arm angles | what the structure adds)
-///   u = (vx, vy, [ball spin], w_WB_W, arm rates | what the structure adds)
+///   q = (px, py | quaternion of R_WB | arm angles | ball spin angle, if it can | ...)
+///   u = (vx, vy | w_WB_W | arm rates | ball spin, if it can | what the structure adds)
 ///
 /// Rolling without slip ties the horizontal part of the ball's angular velocity to its velocity, so
 /// ball and carriage are one point of mass m_K + I_K / r^2 (exact on a level floor). With ball spin
@@ -65,10 +66,10 @@ class RobotTree {
 
   int nq() const { return nq_; }
   int nu() const { return nu_; }
-  int quaternionOffset() const { return ball_spin_ ? 3 : 2; }
-  int omegaOffset() const { return ball_spin_ ? 3 : 2; }
-  int armQOffset() const { return quaternionOffset() + 4; }
-  int armUOffset() const { return omegaOffset() + 3; }
+  /// How many of q and u are shared.
+  int sharedQ() const { return ball_spin_ ? kSharedDim + 1 : kSharedDim; }
+  int sharedU() const { return ball_spin_ ? kSharedDim : kSharedDim - 1; }
+  static constexpr int kQuaternionQ = 2, kArmQ = 6;
 
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter;
@@ -90,33 +91,6 @@ class RobotTree {
   SimTK::Vector mobility_forces_;
   SimTK::Vector_<SimTK::SpatialVec> body_forces_;
   bool realized_ = false;
-};
-
-/// Where an actuator's housing sits: wheels on the base, arm joints on the link before.
-struct ActuatorMount {
-  BodyIndex parent;
-  Vector3 axis;    ///< unit, in parent's axes
-  Vector3 p_PA_P;  ///< in the parent's frame [m]
-};
-std::array<ActuatorMount, kJointCount> actuatorMounts(const RobotParameters& robot);
-
-/// Wheel rates as a linear function of the platform's velocities u = (vx, vy, [spin], w_WB_W):
-///   dphi_i = row_i u,  ddphi_i = row_i udot + bias_i,
-/// from dphi_i = -(r/r_w) d_i . (kappa - w), with kappa = (-vy/r, vx/r, spin) the ball's and w the
-/// base's angular velocity.
-class WheelRolling {
- public:
-  using Rows = Eigen::Matrix<double, kWheelCount, Eigen::Dynamic, 0, kWheelCount, 6>;
-
-  WheelRolling(const RobotParameters& robot, bool ball_spin);
-  Rows rows(const Matrix3& R_WB) const;
-  Vector3 bias(const BaseMotion& base) const;  ///< [rad/s^2]
-  Vector3 rates(const Matrix3& R_WB, const double* u) const;
-
- private:
-  double ball_radius_, wheel_radius_;
-  bool ball_spin_;
-  Matrix3 axles_B_;  ///< columns d_i
 };
 
 }  // namespace ballbot
