@@ -110,16 +110,19 @@ TEST_P(WholeBodyProblemTest, AAndBAreCentralDifferencesOfTheStep) {
   problem_.linearizeStep(1, x_, u_, next, lq);
   problem_.step(1, x_, u_, expected);
   EXPECT_LT((next - expected).cwiseAbs().maxCoeff(), 1e-12);
-  const double h = 1e-6;
+  // Fourth order, so that a wide step serves: its rounding error stays near 1e-10.
+  const double h = 1e-4;
   for (int i = 0; i < kMpcStateDim + NU; ++i) {
-    X xa = x_, xb = x_, a, b;
-    U ua = u_, ub = u_;
     const bool state = i < kMpcStateDim;
-    (state ? xa[i] : ua[i - kMpcStateDim]) += h;
-    (state ? xb[i] : ub[i - kMpcStateDim]) -= h;
-    problem_.step(1, xa, ua, a);
-    problem_.step(1, xb, ub, b);
-    const X difference = (a - b) / (2 * h);
+    const auto stepped = [&](double by) {
+      X x = x_, out;
+      U u = u_;
+      (state ? x[i] : u[i - kMpcStateDim]) += by;
+      problem_.step(1, x, u, out);
+      return out;
+    };
+    const X difference =
+        (8 * (stepped(h) - stepped(-h)) - (stepped(2 * h) - stepped(-2 * h))) / (12 * h);
     const X column = state ? X(lq.A().col(i)) : X(lq.B().col(i - kMpcStateDim));
     EXPECT_LT((column - difference).cwiseAbs().maxCoeff(), 1e-8) << "column " << i;
   }

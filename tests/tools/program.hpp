@@ -24,7 +24,7 @@ class Program {
 
   void signal(int number) const;
   /// Waits for the end; fails the test and kills it after `timeout_s`.
-  Finished finish(int timeout_s = 100);
+  Finished finish(int timeout_s = 300);
   /// Process ids of its children.
   std::vector<pid_t> children() const;
 
@@ -33,7 +33,7 @@ class Program {
   pid_t pid_ = -1;
 };
 
-Finished runBallbot(const std::vector<std::string>& arguments, int timeout_s = 100);
+Finished runBallbot(const std::vector<std::string>& arguments, int timeout_s = 300);
 
 /// A folder that goes when the object goes.
 class TemporaryFolder {

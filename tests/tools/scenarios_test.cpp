@@ -10,12 +10,12 @@ namespace ballbot {
 namespace {
 
 /// Every scenario that ships must pass its own requirements.
-class Scenarios : public ::testing::TestWithParam<std::string> {};
+class ShippedScenario : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(Scenarios, PassesItsRequirements) {
+TEST_P(ShippedScenario, PassesItsRequirements) {
   const TemporaryFolder folder;
   const Finished run =
-      runBallbot({"run", scenarioPath(GetParam()), "--quiet", "--json", "--out", folder / "run"}, 280);
+      runBallbot({"run", scenarioPath(GetParam()), "--quiet", "--json", "--out", folder / "run"}, 600);
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
   const auto json = nlohmann::json::parse(run.out, nullptr, false);
   ASSERT_FALSE(json.is_discarded()) << run.err;
@@ -37,8 +37,18 @@ std::vector<std::string> shippedScenarios() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, Scenarios, ::testing::ValuesIn(shippedScenarios()),
+INSTANTIATE_TEST_SUITE_P(Shipped, ShippedScenario, ::testing::ValuesIn(shippedScenarios()),
                          [](const auto& test) { return test.param; });
+
+/// The balancing law without optimisation must hold what the planning one holds.
+TEST(Scenarios, BalanceAndPushPassWithTheLqrAlone) {
+  for (const char* name : {"balance", "push"}) {
+    const TemporaryFolder folder;
+    const Finished run = runBallbot({"run", scenarioPath(name), "--quiet", "--json", "--no-report", "--out",
+                                     folder / "run", "--set", "controller.kind=lqr"});
+    EXPECT_EQ(run.exit_code, 0) << name << run.out << run.err;
+  }
+}
 
 TEST(Requirements, AMissedOneGivesExitCodeOne) {
   const TemporaryFolder folder;
