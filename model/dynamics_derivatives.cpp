@@ -10,7 +10,7 @@ using Linearization = ReducedDynamics::Linearization;
 using EndEffectorLinearization = ReducedDynamics::EndEffectorLinearization;
 
 /// dq/dt = T(q) nu and its derivatives.
-void linearizeKinematics(const DynamicsLanes& lanes, Linearization* out) {
+[[gnu::flatten]] void linearizeKinematics(const DynamicsLanes& lanes, Linearization* out) {
   const DynamicsLanes::Pass& p = lanes.pass;
   const Pack secant = Pack(1) / p.cos_pitch, tangent = p.sin_pitch * secant;
   const auto rates = p.eulerRates();
@@ -69,8 +69,8 @@ void linearizeDynamics(const DynamicsConstants& constants, const DynamicsLanes& 
   }
 }
 
-void linearizeTip(const DynamicsConstants& constants, const DynamicsLanes& lanes,
-                  const StateVector* x, EndEffectorLinearization* out) {
+[[gnu::flatten]] void linearizeTip(const DynamicsConstants& constants, const DynamicsLanes& lanes,
+                                   const StateVector* x, EndEffectorLinearization* out) {
   using Output = EndEffectorLinearization;
   const EndEffectorKinematics<Pack> E(constants, lanes.pass, lanes.gathered<kBallX, 2>(x),
                                       lanes.gathered<kPositionDim + kBallVx, 2>(x));

@@ -48,7 +48,7 @@ class NewtonEuler {
   }
 
   /// h(q, nu): the generalised force that dnu/dt = 0 takes.
-  Vec8 nonlinearEffects() const {
+  [[gnu::flatten]] Vec8 nonlinearEffects() const {
     Vec8 h;
     const Vec3 spin_torque = rho_ * (G_ * cross(omega, kappa));
     h.template head<2>() =
@@ -60,7 +60,7 @@ class NewtonEuler {
   }
 
   /// M(q), by composite rigid bodies.
-  Mat8 massMatrix() const {
+  [[gnu::flatten]] Mat8 massMatrix() const {
     Mat8 M;
     const Scalar one(1);
     const Eigen::Matrix<Scalar, 3, 2> G_rolling = G_ * rolling;
@@ -93,7 +93,7 @@ class NewtonEuler {
   }
 
   /// S(q)^T tau + J_E(q)^T lambda_W.
-  Vec8 appliedForce(const Vec6& tau, const Vec3& lambda_W) const {
+  [[gnu::flatten]] Vec8 appliedForce(const Vec6& tau, const Vec3& lambda_W) const {
     const Vec3 ball_torque = ballTorque(tau);
     const Vec3 lambda = R_WB.transpose() * lambda_W;
     Vec8 force;
@@ -138,7 +138,7 @@ class NewtonEuler {
   PerJoint<Scalar> rate;                          ///< arm joint rates
 
  private:
-  void placeBase(const Vec8& q, const Vec8& nu) {
+  [[gnu::flatten]] void placeBase(const Vec8& q, const Vec8& nu) {
     const Scalar angle[8] = {q[kYaw],  q[kPitch], q[kRoll],  q[kArm1],
                              q[kArm2], q[kArm3],  Scalar(0), Scalar(0)};
     Scalar sine[8], cosine[8];
@@ -167,7 +167,7 @@ class NewtonEuler {
   }
 
   /// Places and moves each link from its parent.
-  void goOutward(const Vec8& nu) {
+  [[gnu::flatten]] void goOutward(const Vec8& nu) {
     R_BA3.setIdentity();
     Vec3 origin = Vec3::Zero();
     for (int i = 0; i < kArmJointCount; ++i) {
@@ -191,7 +191,7 @@ class NewtonEuler {
   }
 
   /// Sums masses and forces from the tip inwards.
-  void goInward() {
+  [[gnu::flatten]] void goInward() {
     // Acceleration of the frame at dnu/dt = 0; gravity is an upward acceleration of K.
     std::array<Motion<Scalar>, 4> acceleration;
     acceleration[0] = {Vec3::Zero(), Scalar(c_.gravity) * R_WB.row(2).transpose()};

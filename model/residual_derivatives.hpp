@@ -76,10 +76,10 @@ class ResidualDerivatives {
     columns.template block<3, 1>(kOmegaX, column) = -w.moment;
   }
 
-  void byArm(const Vec8& acceleration);
-  void byOrientation(const Vec8& acceleration, const Vec6& tau);
-  void byBaseVelocity();
-  void byInputs();
+  [[gnu::flatten]] void byArm(const Vec8& acceleration);
+  [[gnu::flatten]] void byOrientation(const Vec8& acceleration, const Vec6& tau);
+  [[gnu::flatten]] void byBaseVelocity();
+  [[gnu::flatten]] void byInputs();
 
   const DynamicsConstants& c_;
   const Pass& p_;
@@ -154,7 +154,6 @@ void ResidualDerivatives<Scalar>::byOrientation(const Vec8& acceleration, const 
   dn -= rho_ * skewTimes(p_.omega, timesSkew(G_, p_.kappa));
 
   // Force on the upper body less its share m a_K, which is fixed in W.
-  const VelocityMoments<Scalar>& moving = p_.moving[0];
   Vec3 force = p_.bias[0].force -
                Scalar(p_.composite[0].mass * c_.gravity) * p_.R_WB.row(2).transpose() +
                cross(angular_, p_.composite[0].first);
@@ -171,7 +170,6 @@ void ResidualDerivatives<Scalar>::byOrientation(const Vec8& acceleration, const 
     dp.row(k) = (cross(force, row) - cross(ball_torque, axis)).transpose() -
                 rho_ * (axis.transpose() * spin_torque);
   }
-  static_cast<void>(moving);
 
   // delta = E (dyaw, dpitch, droll).
   const Vec3 yaw(-p_.sin_pitch, p_.cos_pitch * p_.sin_roll, p_.cos_pitch * p_.cos_roll);

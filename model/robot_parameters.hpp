@@ -9,9 +9,9 @@ namespace ballbot {
 
 /// Mass properties of a rigid body L in its own frame.
 struct BodyInertia {
-  double mass = 0;                         ///< [kg]
-  Vector3 p_LLcm_L = Vector3::Zero();      ///< centre of mass from the body's origin [m]
-  Matrix3 I_LLcm_L = Matrix3::Zero();      ///< about the centre of mass, axes of L [kg m^2]
+  double mass = 0;                     ///< [kg]
+  Vector3 p_LLcm_L = Vector3::Zero();  ///< centre of mass from the body's origin [m]
+  Matrix3 I_LLcm_L = Matrix3::Zero();  ///< about the centre of mass, axes of L [kg m^2]
 };
 
 /// `a` and `b` rigidly joined; both given in frames with parallel axes, b's origin at p_AB_A.
@@ -21,9 +21,9 @@ BodyInertia composed(const BodyInertia& a, const BodyInertia& b, const Vector3& 
 /// parallel to B.
 struct ArmLink {
   std::string name;
-  Vector3 p_PJ_P = Vector3::Zero();   ///< joint origin in the parent's frame (base: from K) [m]
-  Vector3 axis = Vector3::UnitZ();    ///< unit vector, same in parent and link
-  BodyInertia inertia;                ///< origin at the joint
+  Vector3 p_PJ_P = Vector3::Zero();  ///< joint origin in the parent's frame (base: from K) [m]
+  Vector3 axis = Vector3::UnitZ();   ///< unit vector, same in parent and link
+  BodyInertia inertia;               ///< origin at the joint
   double lower_limit = 0, upper_limit = 0;  ///< [rad]
 };
 
@@ -41,21 +41,21 @@ struct RobotParameters {
 
   /// Three equal omni wheels. Contact with the ball in direction c_i from K, axle d_i, both in B.
   struct Wheels {
-    double radius = 0;              ///< [m]
-    double mass = 0;                ///< each [kg]
-    double spin_inertia = 0;        ///< about the axle [kg m^2]
-    double transverse_inertia = 0;  ///< about any axis across the axle [kg m^2]
-    double contact_zenith = 0;      ///< angle of the contact from the ball's top [rad]
+    double radius = 0;                          ///< [m]
+    double mass = 0;                            ///< each [kg]
+    double spin_inertia = 0;                    ///< about the axle [kg m^2]
+    double transverse_inertia = 0;              ///< about any axis across the axle [kg m^2]
+    double contact_zenith = 0;                  ///< angle of the contact from the ball's top [rad]
     std::array<double, kWheelCount> azimuth{};  ///< [rad]
   } wheels;
 
   BodyInertia base;  ///< without wheels, origin at K
   std::array<ArmLink, kArmJointCount> arm;
 
-  Vector3 p_A3E = Vector3::Zero();        ///< end-effector frame E in the last link [m]
-  Matrix3 R_A3E = Matrix3::Identity();    ///< takes E coordinates to the last link's
+  Vector3 p_A3E = Vector3::Zero();      ///< end-effector frame E in the last link [m]
+  Matrix3 R_A3E = Matrix3::Identity();  ///< takes E coordinates to the last link's
 
-  Vector3 p_BI_B = Vector3::Zero();       ///< IMU from the base origin (= K) [m]
+  Vector3 p_BI_B = Vector3::Zero();  ///< IMU from the base origin (= K) [m]
 
   /// A point mass carried at E, known to the model; zero when nothing is carried [kg].
   double payload_mass = 0;
