@@ -78,8 +78,8 @@ class FullMultibody final : public Multibody {
   void realize(const double* y) override { tree_.realize(y, y + nq_); }
 
   JointMotion joints() const override {
-    const SimTK::Vector& q = tree_.state.getQ();
-    const SimTK::Vector& u = tree_.state.getU();
+    const double* q = &tree_.state.getQ()[0];
+    const double* u = &tree_.state.getU()[0];
     JointMotion m;
     for (int i = 0; i < kJointCount; ++i) {
       m.angle[i] = q[jointQ(i)];
@@ -95,14 +95,14 @@ class FullMultibody final : public Multibody {
 
   void derivative(const MultibodyLoads& loads, double* ydot) override {
     tree_.collectForces(loads);
-    SimTK::Vector& f = tree_.mobilityForces();
+    double* f = &tree_.mobilityForces()[0];
     for (int i = 0; i < kWheelCount; ++i) f[wheel_u_ + i] = loads.joint_torque[i];
     for (int i = 0; options_.rotors && i < kJointCount; ++i) {
       f[rotorU(i)] = loads.rotor_torque[i] / options_.gear_ratio[i];
     }
     tree_.system.realize(tree_.state, SimTK::Stage::Dynamics);
-    tree_.matter.calcAccelerationIgnoringConstraints(tree_.state, f, tree_.bodyForces(), udot_,
-                                                     body_acceleration_);
+    tree_.matter.calcAccelerationIgnoringConstraints(tree_.state, tree_.mobilityForces(),
+                                                     tree_.bodyForces(), udot_, body_acceleration_);
     addRollingConstraint();
     const SimTK::Vector& qdot = tree_.state.getQDot();
     std::copy_n(&qdot[0], nq_, ydot);
@@ -190,26 +190,30 @@ class FullMultibody final : public Multibody {
     const int n = tree_.sharedU();
     std::array<SharedRow, kWheelCount> rows;
     for (int i = 0; i < kWheelCount; ++i) rows[i] = rolling_.row(tree_.base().R_WB, i);
-    const auto rowTimes = [&](int i, const SimTK::Vector& v) {
+    const auto rowTimes = [&](int i, const double* v) {
       double sum = v[wheel_u_ + i];
       for (int k = 0; k < n; ++k) sum -= rows[i][k] * v[k];
       return sum;
     };
-    SmallMatrix<kWheelCount> A;  // G M^-1 G^T
+    double* force = &constraint_force_[0];
+    double* udot = &udot_[0];
+    std::array<const double*, kWheelCount> response;  // M^-1 G^T, by column
+    SmallMatrix<kWheelCount> A;                       // G M^-1 G^T
     for (int i = 0; i < kWheelCount; ++i) {
-      for (int k = 0; k < n; ++k) constraint_force_[k] = -rows[i][k];
-      constraint_force_[wheel_u_ + i] = 1;
+      for (int k = 0; k < n; ++k) force[k] = -rows[i][k];
+      force[wheel_u_ + i] = 1;
       tree_.matter.multiplyByMInv(tree_.state, constraint_force_, response_[i]);
-      constraint_force_[wheel_u_ + i] = 0;
-      for (int j = i; j < kWheelCount; ++j) A[j][i] = rowTimes(j, response_[i]);
+      force[wheel_u_ + i] = 0;
+      response[i] = &response_[i][0];
+      for (int j = i; j < kWheelCount; ++j) A[j][i] = rowTimes(j, response[i]);
     }
     const Vector3 bias = rolling_.bias(tree_.base());
     SmallVector<kWheelCount> multipliers;
-    for (int i = 0; i < kWheelCount; ++i) multipliers[i] = bias[i] - rowTimes(i, udot_);
+    for (int i = 0; i < kWheelCount; ++i) multipliers[i] = bias[i] - rowTimes(i, udot);
     solveCholesky<kWheelCount>(A, multipliers, kWheelCount);
     for (int k = 0; k < nu_; ++k) {
-      udot_[k] += response_[0][k] * multipliers[0] + response_[1][k] * multipliers[1] +
-                  response_[2][k] * multipliers[2];
+      udot[k] += response[0][k] * multipliers[0] + response[1][k] * multipliers[1] +
+                 response[2][k] * multipliers[2];
     }
   }
 
@@ -219,7 +223,7 @@ class FullMultibody final : public Multibody {
   WheelRolling rolling_;
   int nq_ = 0, nu_ = 0, wheel_q_ = 0, wheel_u_ = 0;
   SimTK::Vector udot_, constraint_force_;
-  std::array<SimTK::Vector, kWheelCount> response_;  ///< M^-1 G^T, by column
+  std::array<SimTK::Vector, kWheelCount> response_;
   SimTK::Vector_<SimTK::SpatialVec> body_acceleration_;
 };
 

@@ -116,7 +116,8 @@ class ReducedMultibody final : public Multibody {
     tree_.matter.calcResidualForceIgnoringConstraints(tree_.state, tree_.mobilityForces(),
                                                       tree_.bodyForces(), no_udot_, residual_);
     SmallVector<kSharedDim> force{};
-    for (int k = 0; k < nu_; ++k) force[k] = -residual_[k];
+    const double* residual = &residual_[0];
+    for (int k = 0; k < nu_; ++k) force[k] = -residual[k];
     assembleMass();
     applyWheels(loads, force);
     solveCholesky<kSharedDim>(mass_, force, nu_);
@@ -182,8 +183,7 @@ class ReducedMultibody final : public Multibody {
       const double momentum = options_.rotor_inertia[i] * rotor_spin_[i];
       const Vector3 torque = -loads.rotor_torque[i] / options_.gear_ratio[i] * axis_W_[i] -
                              momentum * tree_.body(carrier).w_WL_W.cross(axis_W_[i]);
-      const auto index = tree_.mobilizedBody(carrier).getMobilizedBodyIndex();
-      tree_.bodyForces()[index][0] += toSimTK(torque);
+      tree_.addTorque(carrier, torque);
     }
   }
 

@@ -152,28 +152,33 @@ void RobotTree::realize(const double* q, const double* u) {
 void RobotTree::collectForces(const MultibodyLoads& loads) {
   mobility_forces_ = 0;
   body_forces_ = SpatialVec(Vec3(0), Vec3(0));
+  double* mobility = &mobility_forces_[0];
+  SpatialVec* on_body = &body_forces_[0];
   for (int b = kBaseBody; b < kBodyCount; ++b) {  // the ball's weight acts on the floor only
     const Vector3 weight{0, 0, -gravity_ * weight_[b].mass};
     const Vector3 arm = motion_[b].R_WL * weight_[b].p_LLcm_L;
-    body_forces_[index_[b]] += SpatialVec(toSimTK(arm.cross(weight)), toSimTK(weight));
+    on_body[index_[b]] += SpatialVec(toSimTK(arm.cross(weight)), toSimTK(weight));
   }
   for (const PointForce& f : loads.forces) {
-    const Vec3 force = toSimTK(f.force_W);
     if (f.body == kBallBody) {
       // Virtual work of force and torque on a ball that rolls: v = (vx, vy), w = (-vy, vx)/r.
       const Vector3 torque = f.p_BP_B.cross(f.force_W);
-      mobility_forces_[0] += force[0] + torque.y() / ball_radius_;
-      mobility_forces_[1] += force[1] - torque.x() / ball_radius_;
-      if (ball_spin_) mobility_forces_[kSpinU] += torque.z();
+      mobility[0] += f.force_W.x() + torque.y() / ball_radius_;
+      mobility[1] += f.force_W.y() - torque.x() / ball_radius_;
+      if (ball_spin_) mobility[kSpinU] += torque.z();
     } else {
       const Vector3 arm = motion_[f.body].R_WL * f.p_BP_B;
-      body_forces_[index_[f.body]] += SpatialVec(toSimTK(arm.cross(f.force_W)), force);
+      on_body[index_[f.body]] += SpatialVec(toSimTK(arm.cross(f.force_W)), toSimTK(f.force_W));
     }
   }
-  if (ball_spin_) mobility_forces_[kSpinU] += loads.ball_spin_torque;
+  if (ball_spin_) mobility[kSpinU] += loads.ball_spin_torque;
   for (int j = 0; j < kArmJointCount; ++j) {
-    mobility_forces_[kArmU + j] += loads.joint_torque[kWheelCount + j];
+    mobility[kArmU + j] += loads.joint_torque[kWheelCount + j];
   }
+}
+
+void RobotTree::addTorque(BodyIndex body, const Vector3& torque_W) {
+  body_forces_[index_[body]][0] += toSimTK(torque_W);
 }
 
 void RobotTree::place(const RobotPose& pose, double* q, double* u) const {

@@ -52,6 +52,7 @@ class RobotTree {
   /// Gravity and loads.forces as Simbody wants them: one spatial force per body in bodyForces(),
   /// the ball's part and the arm torques in mobilityForces(). Overwrites both.
   void collectForces(const MultibodyLoads& loads);
+  void addTorque(BodyIndex body, const Vector3& torque_W);
   SimTK::Vector& mobilityForces() { return mobility_forces_; }
   SimTK::Vector_<SimTK::SpatialVec>& bodyForces() { return body_forces_; }
 
