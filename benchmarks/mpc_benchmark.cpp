@@ -64,8 +64,12 @@ void mpcIteration(benchmark::State& state, double length, int stages, int thread
   MpcState x0;
   x0 << rest.x, Vector3::Zero();
   MpcPolicy seed = engine->emptyPolicy(), plan = seed, next = seed;
+  const LqrSolution lqr = designLqr(dynamics, robot.nominal_arm, LqrWeights{});
   for (auto& knot : seed.knots()) knot.x = x0;
-  for (auto& control : seed.controls()) control.u << rest.tau, 0, 0, 5;
+  for (auto& control : seed.controls()) {
+    control.u << rest.tau, Vector3::Zero();
+    control.K.topLeftCorner<kJointCount, kStateDim>() = lqr.K;
+  }
   seed.setValid(kSimStart);
   if (!engine->solve(kSimStart, x0, seed, 30, plan).ok()) state.SkipWithError("no first plan");
   // The measurement 14 ms later, a little off the plan, so that the iteration has work to do.

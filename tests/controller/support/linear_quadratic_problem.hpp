@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdlib>
+
+#include "controller/optimal_control_problem.hpp"
+
+namespace ballbot {
+
+/// Linear dynamics and quadratic cost with cross and linear terms, the same at every stage: the case
+/// with a textbook solution.
+template <int NX, int NU>
+class LinearQuadraticProblem final : public OptimalControlProblem<NX, NU> {
+ public:
+  using Base = OptimalControlProblem<NX, NU>;
+  using X = typename Base::X;
+  using U = typename Base::U;
+  using MatrixX = Eigen::Matrix<double, NX, NX>;
+  using MatrixU = Eigen::Matrix<double, NU, NU>;
+  using MatrixXU = Eigen::Matrix<double, NX, NU>;
+
+  LinearQuadraticProblem(int stages, unsigned seed) : stages_(stages) {
+    std::srand(seed);
+    A = MatrixX::Identity() + 0.1 * MatrixX::Random();
+    B = 0.3 * MatrixXU::Random();
+    const Eigen::MatrixXd half = Eigen::MatrixXd::Random(NX + NU, NX + NU);
+    const Eigen::MatrixXd W = half * half.transpose();
+    Q = W.topLeftCorner(NX, NX);
+    R = W.bottomRightCorner(NU, NU) + MatrixU::Identity();
+    Pt = W.topRightCorner(NX, NU);
+    q.setRandom();
+    r.setRandom();
+    Qf = MatrixX::Identity();
+  }
+
+  int stages() const noexcept override { return stages_; }
+  void step(int, const X& x, const U& u, X& next) const noexcept override {
+    next.noalias() = A * x + B * u;
+  }
+  void addCost(int, const X& x, const U& u, CostTerms& terms) const noexcept override {
+    terms.value[0] += 0.5 * x.dot(Q * x) + x.dot(Pt * u) + 0.5 * u.dot(R * u) + q.dot(x) + r.dot(u);
+  }
+  void addFinalCost(const X& x, CostTerms& terms) const noexcept override {
+    terms.value[1] += 0.5 * x.dot(Qf * x);
+  }
+  void linearizeStep(int k, const X& x, const U& u, X& next,
+                     LqStage<NX, NU>& lq) const noexcept override {
+    step(k, x, u, next);
+    lq.A() = A;
+    lq.B() = B;
+  }
+  void approximateCost(int k, const X& x, const U& u, CostTerms& terms,
+                       LqStage<NX, NU>& lq) const noexcept override {
+    addCost(k, x, u, terms);
+    lq.Q() = Q;
+    lq.R() = R;
+    lq.Pt() = Pt;
+    lq.q() = Q * x + Pt * u + q;
+    lq.r() = R * u + Pt.transpose() * x + r;
+  }
+  void approximateFinalCost(const X& x, CostTerms& terms,
+                            ValueFunction<NX>& value) const noexcept override {
+    addFinalCost(x, terms);
+    value.set(Qf, Qf * x, 0);
+  }
+
+  MatrixX A, Q, Qf;
+  MatrixXU B, Pt;
+  MatrixU R;
+  X q;
+  U r;
+
+ private:
+  int stages_;
+};
+
+}  // namespace ballbot
