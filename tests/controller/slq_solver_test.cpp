@@ -135,7 +135,7 @@ class SlqOnRobot : public testing::Test {
   SlqOnRobot() {
     for (int k = 0; k <= kStages; ++k) {
       Tasks& t = problem_.tasks(k);
-      TaskSchedule(robot_).at(0, t);
+      TaskSchedule(robot_).at(0, 0, t);
       t.ball_position_weight.setConstant(100);
       t.ball_velocity_weight.setConstant(10);
       t.ee_position_weight << 50, 50, 0;
