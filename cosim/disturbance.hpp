@@ -16,10 +16,10 @@ struct DisturbanceOptions {
   std::uint64_t seed = 1;
   double loss = 0;
   double duplication = 0;
-  double reordering = 0;                           ///< held back so that later ones overtake it
+  double reordering = 0;                         ///< held back so that later ones overtake it
   std::chrono::microseconds reorder_delay{500};  ///< how long it is held back
-  std::chrono::microseconds delay{0};              ///< of every message, at least
-  std::chrono::microseconds jitter{0};             ///< more delay, uniform from 0 to this
+  std::chrono::microseconds delay{0};            ///< of every message, at least
+  std::chrono::microseconds jitter{0};           ///< more delay, uniform from 0 to this
 
   /// @throw InputError for a probability outside 0 to 1 or a negative time.
   void check() const;

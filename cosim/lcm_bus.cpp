@@ -1,6 +1,7 @@
 #include "cosim/lcm_bus.hpp"
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <random>
 
@@ -61,13 +62,6 @@ void requireRoute(const std::string& url) {
       url, std::strerror(errno)));
 }
 
-void keep(const lcm_recv_buf_t* received, const char* channel, void* inbox) {
-  auto& message = *static_cast<LcmBus::Message*>(inbox);
-  const auto* bytes = static_cast<const std::uint8_t*>(received->data);
-  message.channel = channel;
-  message.data.assign(bytes, bytes + received->data_size);
-}
-
 }  // namespace
 
 LcmBus::LcmBus(const std::string& url) : url_(url) {
@@ -84,7 +78,13 @@ LcmBus::LcmBus(const std::string& url) : url_(url) {
 LcmBus::~LcmBus() { lcm_destroy(lcm_); }
 
 void LcmBus::subscribe(const std::string& channel) {
-  lcm_subscription_t* subscription = lcm_subscribe(lcm_, channel.c_str(), &keep, &inbox_);
+  // The first subscription starts LCM's receiving thread. Signals are not for it: they must wake
+  // the thread that waits in receive(), and LCM would only complain on stderr.
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  lcm_subscription_t* subscription = lcm_subscribe(lcm_, channel.c_str(), &LcmBus::keep, this);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (subscription == nullptr) {
     throw InputError(fmt::format("LCM URL '{}': cannot subscribe to '{}'", url_, channel));
   }
@@ -95,13 +95,24 @@ bool LcmBus::publish(const char* channel, const std::uint8_t* data, std::size_t 
   return lcm_publish(lcm_, channel, data, static_cast<unsigned>(size)) == 0;
 }
 
+void LcmBus::keep(const _lcm_recv_buf_t* received, const char* channel, void* bus) {
+  auto& self = *static_cast<LcmBus*>(bus);
+  const auto* bytes = static_cast<const std::uint8_t*>(received->data);
+  self.inbox_.channel = channel;
+  self.inbox_.data.assign(bytes, bytes + received->data_size);
+  self.arrived_ = true;
+}
+
 bool LcmBus::receive(const Message*& out, WallDuration timeout) {
   const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(timeout).count();
   if (ns < 0) return false;
   pollfd waiting{file_descriptor_, POLLIN, 0};
   const timespec limit{ns / 1'000'000'000, ns % 1'000'000'000};
   if (::ppoll(&waiting, 1, &limit, nullptr) <= 0) return false;
+  arrived_ = false;
   if (lcm_handle(lcm_) != 0) return false;
+  // LCM also hands itself messages of its own, of which we see nothing.
+  if (!arrived_) return false;
   out = &inbox_;
   return true;
 }

@@ -7,6 +7,7 @@
 #include "cosim/transport.hpp"
 
 struct _lcm_t;
+struct _lcm_recv_buf_t;
 
 namespace ballbot {
 
@@ -30,17 +31,21 @@ class LcmBus {
   /// Whether the network took the message; it may still lose it.
   bool publish(const char* channel, const std::uint8_t* data, std::size_t size);
   /// Waits in poll() for the next message of a subscribed channel, in the order of arrival; false
-  /// after `timeout` or at a signal. The message is valid until the next call.
+  /// after `timeout`, at a signal, or when LCM had something to do for itself. The message is valid
+  /// until the next call.
   bool receive(const Message*& out, WallDuration timeout);
   /// Readable when a message waits.
   int fileDescriptor() const { return file_descriptor_; }
   const std::string& url() const { return url_; }
 
  private:
+  static void keep(const _lcm_recv_buf_t* received, const char* channel, void* bus);
+
   std::string url_;
   _lcm_t* lcm_;
   int file_descriptor_;
   Message inbox_;
+  bool arrived_ = false;
 };
 
 /// A UDP port that nobody on this machine listens to, for a multicast network of one's own.

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "cosim/participant.hpp"
 
@@ -38,6 +40,9 @@ class Lifecycle final : public Participant {
  public:
   /// `participant` must outlive this.
   explicit Lifecycle(Participant& participant) : participant_(participant) {}
+  /// Keeps the participant as its own.
+  explicit Lifecycle(std::unique_ptr<Participant> participant)
+      : owned_(std::move(participant)), participant_(*owned_) {}
 
   LifecycleState state() const { return state_; }
   /// The time reached.
@@ -64,6 +69,7 @@ class Lifecycle final : public Participant {
   template <typename Work>
   void attempt(Work&& work);
 
+  std::unique_ptr<Participant> owned_;
   Participant& participant_;
   LifecycleState state_ = LifecycleState::kInstantiated;
   SimTime time_{};

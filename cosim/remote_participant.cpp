@@ -1,5 +1,6 @@
 #include "cosim/remote_participant.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +14,9 @@ namespace {
 
 using Reply = ballbot_msgs::step_reply;
 using std::chrono::milliseconds;
+
+// While the far end is still starting nobody is disturbed by frequent tries.
+constexpr milliseconds kFirstContactWait{10};
 
 std::int64_t wholeMilliseconds(WallDuration d) {
   return std::chrono::duration_cast<milliseconds>(d).count();
@@ -43,7 +47,7 @@ void RemoteParticipant::enterInitializationMode(SimTime start) {
     client_ = std::make_unique<StepClient>(static_cast<std::int64_t>(drawSessionId()),
                                            options_.config_digest);
     client_->hello(start);
-    exchange(options_.first_patience);
+    exchange(options_.first_patience, kFirstContactWait);
   }
   reset_pending_ = false;
   adoptReply();
@@ -101,33 +105,39 @@ RemoteParticipant::LinkStatistics RemoteParticipant::statistics() const {
 }
 
 // Sends the pending request until its reply is there.
-void RemoteParticipant::exchange(WallDuration patience) const {
+void RemoteParticipant::exchange(WallDuration patience, WallDuration longest_wait) const {
   ++statistics_.requests;
   const WallClock::time_point started = WallClock::now();
+  WallClock::time_point now = started;
   for (int tries = 0;; ++tries) {
     if (options_.stop != nullptr && options_.stop->load()) {
       throw InterruptedError("stopped while waiting for " + options_.name);
     }
-    const WallDuration waited = WallClock::now() - started;
     if (tries > 0) {
       const std::string trouble = options_.peer_trouble ? options_.peer_trouble() : std::string{};
       if (!trouble.empty()) {
         throw LostParticipantError(options_.name, options_.name + " " + trouble);
       }
-      if (waited >= patience) throwLost(waited, tries);
+      if (now - started >= patience) throwLost(now - started, tries);
       ++statistics_.repeated;
     }
     transport_.send(client_->pending().data(), client_->pending().size());
-    if (!replyWithin(timer_.wait(tries))) continue;
-    if (tries == 0) timer_.measured(WallClock::now() - started);
+    const bool replied = replyBy(now + std::min(timer_.wait(tries), longest_wait), now);
+    if (!replied) continue;
+    if (tries == 0) timer_.measured(now - started);
     return throwUnlessOk();
   }
 }
 
-bool RemoteParticipant::replyWithin(WallDuration wait) const {
-  const WallClock::time_point until = WallClock::now() + wait;
-  for (WallDuration left = wait; left > WallDuration{}; left = until - WallClock::now()) {
-    if (!transport_.receive(received_, left)) return false;
+// `now` is the time on entry and on return.
+bool RemoteParticipant::replyBy(WallClock::time_point until, WallClock::time_point& now) const {
+  while (now < until) {
+    const bool any = transport_.receive(received_, until - now);
+    now = WallClock::now();
+    if (!any) {
+      if (options_.stop != nullptr && options_.stop->load()) return false;
+      continue;
+    }
     switch (client_->receive(received_.data(), received_.size())) {
       case StepClient::Received::kReply:
         return true;

@@ -62,8 +62,9 @@ class RemoteParticipant final : public Participant {
   LinkStatistics statistics() const;
 
  private:
-  void exchange(WallDuration patience) const;
-  bool replyWithin(WallDuration wait) const;
+  void exchange(WallDuration patience,
+                WallDuration longest_wait = RetransmissionTimer::kLongest) const;
+  bool replyBy(WallClock::time_point until, WallClock::time_point& now) const;
   void adoptReply();
   void throwUnlessOk() const;
   [[noreturn]] void throwLost(WallDuration waited, int tries) const;

@@ -43,7 +43,7 @@ class Host {
         return report(ended == Session::kAborted ? ServeEnd::kAborted : ServeEnd::kFinished);
       }
       server_.drop();
-      last_heard_ = WallClock::now();
+      last_heard_ = now_;
     }
   }
 
@@ -52,20 +52,22 @@ class Host {
 
   // Waits for one message and answers it.
   void listen() {
-    if (!transport_.receive(request_, kStopInterval)) return;
+    const bool any = transport_.receive(request_, kStopInterval);
+    now_ = WallClock::now();
+    if (!any) return;
     const std::int64_t served = server_.served();
     const std::int64_t resent = server_.resent();
     const Bytes* reply = server_.receive(request_.data(), request_.size());
     if (reply != nullptr) transport_.send(reply->data(), reply->size());
     // Traffic of other runs is no sign of life of this one's master.
-    if (server_.served() + server_.resent() > served + resent) last_heard_ = WallClock::now();
+    if (server_.served() + server_.resent() > served + resent) last_heard_ = now_;
     if (server_.served() > served && !server_.lastError().empty()) say(server_.lastError());
   }
 
   bool sessionIsOver() const {
     if (server_.session() == Session::kReleased) return true;
     const milliseconds limit = patience();
-    return limit > milliseconds{0} && WallClock::now() - last_heard_ >= limit;
+    return limit > milliseconds{0} && now_ - last_heard_ >= limit;
   }
 
   // Zero: for ever.
@@ -97,8 +99,8 @@ class Host {
     if (server_.session() != Session::kOpen) return;
     server_.withdraw(name_ + " was stopped by a signal");
     const std::int64_t served = server_.served();
-    const WallClock::time_point until = WallClock::now() + kStopInterval;
-    while (server_.served() == served && WallClock::now() < until) listen();
+    const WallClock::time_point until = now_ + kStopInterval;
+    while (server_.served() == served && now_ < until) listen();
   }
 
   void say(const std::string& text) const {
@@ -110,7 +112,8 @@ class Host {
   Transport& transport_;
   const ServeOptions& options_;
   StepServer server_;
-  WallClock::time_point last_heard_ = WallClock::now();
+  WallClock::time_point now_ = WallClock::now();  // after the last wait
+  WallClock::time_point last_heard_ = now_;
   Bytes request_;
 };
 

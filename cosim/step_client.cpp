@@ -95,7 +95,7 @@ StepClient::Received StepClient::receive(const std::uint8_t* data, std::size_t s
       header.protocol_version != kProtocolVersion) {
     return expected ? Received::kOtherVersion : Received::kIgnored;
   }
-  if (!decodeMessage(data, size, candidate_)) {
+  if (!decodeWhole(data, size, candidate_)) {
     ++ignored_.damaged;
     return Received::kIgnored;
   }

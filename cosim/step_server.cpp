@@ -38,7 +38,7 @@ const Bytes* StepServer::receive(const std::uint8_t* data, std::size_t size) {
     ++ignored_.foreign;
     return nullptr;
   }
-  if (!decodeMessage(data, size, request_)) {
+  if (!decodeWhole(data, size, request_)) {
     ++ignored_.damaged;
     return nullptr;
   }

@@ -35,10 +35,10 @@ void encodeMessage(const Message& message, Bytes& out) {
   sealMessage(out);
 }
 
-/// False, with `out` unspecified, if the bytes are damaged or not exactly one such message.
+/// Decodes bytes whose checksum holds. False, with `out` unspecified, if they are not exactly one
+/// such message.
 template <typename Message>
-bool decodeMessage(const std::uint8_t* data, std::size_t size, Message& out) noexcept {
-  if (!checksumHolds(data, size)) return false;
+bool decodeWhole(const std::uint8_t* data, std::size_t size, Message& out) noexcept {
   try {
     return out.decode(data, 0, static_cast<int>(size)) == static_cast<int>(size);
   } catch (const std::exception&) {
@@ -46,8 +46,14 @@ bool decodeMessage(const std::uint8_t* data, std::size_t size, Message& out) noe
   }
 }
 
+/// The same for bytes of which nothing is known yet; false also if they are damaged.
+template <typename Message>
+bool decodeMessage(const std::uint8_t* data, std::size_t size, Message& out) noexcept {
+  return checksumHolds(data, size) && decodeWhole(data, size, out);
+}
+
 /// The header of a message of the step protocol, whichever version of this program sent it.
-/// False if the bytes are damaged or too short.
+/// False if the checksum does not hold or the bytes are too short.
 bool decodeHeader(const std::uint8_t* data, std::size_t size,
                   ballbot_msgs::step_header& out) noexcept;
 
