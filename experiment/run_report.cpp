@@ -76,7 +76,7 @@ PlotGroup ballGroup(const std::vector<LogTable>& tables) {
 }
 
 PlotGroup baseGroup(const std::vector<LogTable>& tables) {
-  PlotGroup group{"Base", "The base leans against a push and with an acceleration; at rest it leans 1.2 degrees forward.", {}, {}};
+  PlotGroup group{"Base", "The base leans against a push and into an acceleration; at rest it leans so far that the whole is in balance, 1.2 degrees at the nominal arm pose.", {}, {}};
   AxesBuilder angles(tables, "angle", "deg", kDegPerRad);
   AxesBuilder rates(tables, "angular velocity", "rad/s");
   const char* const names[] = {"pitch", "roll", "yaw"};
