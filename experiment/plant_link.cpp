@@ -23,7 +23,15 @@ PlantLink::PlantLink(const Scenario& scenario, const RunFolder& folder, Options 
   start();
 }
 
-PlantLink::~PlantLink() = default;
+PlantLink::~PlantLink() {
+  remote_.reset();  // tells the far end to stop, if the run did not come to its end
+  child_.reset();
+  // Nothing on stderr is nothing to keep.
+  std::error_code ignored;
+  if (std::filesystem::file_size(stderr_path_, ignored) == 0) {
+    std::filesystem::remove(stderr_path_, ignored);
+  }
+}
 
 void PlantLink::start() {
   if (options_.in_process) {
@@ -67,10 +75,6 @@ void PlantLink::replace() {
 void PlantLink::close() {
   if (!child_) return;
   child_->finish(3000);
-  std::error_code ignored;
-  if (std::filesystem::file_size(stderr_path_, ignored) == 0) {
-    std::filesystem::remove(stderr_path_, ignored);
-  }
 }
 
 RemoteParticipant::LinkStatistics PlantLink::statistics() const {

@@ -38,12 +38,13 @@ class PlantLink {
     const std::atomic<bool>* stop = nullptr;
   };
   PlantLink(const Scenario& scenario, const RunFolder& folder, Options options);
+  /// Ends the child if it still lives, and clears away what it left if it had nothing to say.
   ~PlantLink();
 
   Participant& participant();
   /// Kills the plant and puts a new one, in state instantiated, in its place.
   void replace();
-  /// After the run: waits for the child to end and clears away what it left if it has nothing to say.
+  /// After the run: waits for the child to end by itself.
   void close();
 
   /// Requests sent and sent again; zeros in process.

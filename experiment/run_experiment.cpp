@@ -75,6 +75,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   const RunFolder folder = RunFolder::create(out, scenario.name);
   writeScenario(scenario, folder.path());
   writeManifest(scenario, folder);
+  if (options.started) options.started(folder);
 
   const int core = options.pin && !options.in_process ? preferredCore() : -1;
   if (core >= 0) pinToCore(core);

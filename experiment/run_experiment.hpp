@@ -31,6 +31,8 @@ struct RunOptions {
   std::chrono::milliseconds patience{10'000};
   bool write_report = true;
   const std::atomic<bool>* stop = nullptr;
+  /// Called once the folder is there and before anything is simulated.
+  std::function<void(const RunFolder&)> started;
   std::function<void(SimTime now)> progress;
 };
 

@@ -50,7 +50,17 @@ ExitCode runScenario(const RunArguments& arguments) {
       progress.update(toSeconds(now) / duration_s, fmt::format("{:5.2f} of {:g} s", toSeconds(now), duration_s));
     }
   };
-  const RunResult result = runExperiment(scenario, arguments.out, options);
+  std::string folder;
+  options.started = [&](const RunFolder& made) { folder = made.path(); };
+  const RunResult result = [&] {
+    try {
+      return runExperiment(scenario, arguments.out, options);
+    } catch (const Error&) {
+      progress.finish();
+      if (!folder.empty()) fmt::print(stderr, "What was recorded until then is in {}\n", folder);
+      throw;
+    }
+  }();
   progress.finish();
 
   if (arguments.json) {
