@@ -19,7 +19,8 @@ set(may_tools core model messages cosim plant estimator controller metrics repor
 set(may_plant_participant ${may_plant} cosim)
 
 # The plant may not be simulated by the controller's model, and no controller code may see truth.
-set(never_plant model/reduced_dynamics.hpp)
+set(never_plant model/reduced_dynamics.hpp model/newton_euler.hpp model/residual_derivatives.hpp
+    model/dynamics_lanes.hpp model/end_effector.hpp)
 set(never_controller model/truth.hpp)
 set(never_estimator model/truth.hpp)
 
@@ -29,7 +30,7 @@ set(door_simbody_headers "Simbody.h|SimTKcommon|simbody/")
 set(door_simbody_folders plant)
 set(door_yaml_headers "yaml-cpp/")
 set(door_yaml_folders core)
-set(door_urdf_headers "urdf_parser/|urdf_model/")
+set(door_urdf_headers "urdf_parser/|urdf_model/|urdf_world/")
 set(door_urdf_folders model)
 set(door_lcm_headers "lcm/")
 set(door_lcm_folders cosim)

@@ -95,6 +95,17 @@ TEST_F(EditedRobot, UrdfIsSoughtBesideTheFileThatNamesIt) {
   EXPECT_NEAR(readRobot(robot).totalMass(), 26, 1e-12);
 }
 
+TEST(UrdfPath, IsRelativeToWhereItWasWritten) {
+  const auto path = [](const char* value, const char* source) {
+    return urdfPath(ConfigNode::scalar(value, false, {source, 1, 1}));
+  };
+  EXPECT_EQ(path("robot.urdf", "configs/robots/robot.yaml"), "configs/robots/robot.urdf");
+  EXPECT_EQ(path("../robot.urdf", "configs/robots/robot.yaml"), "configs/robot.urdf");
+  EXPECT_EQ(path("robot.urdf", "robot.yaml"), "robot.urdf");
+  EXPECT_EQ(path("/robots/robot.urdf", "configs/robots/robot.yaml"), "/robots/robot.urdf");
+  EXPECT_EQ(path("my/robot.urdf", "--set robot.urdf=my/robot.urdf"), "my/robot.urdf");
+}
+
 TEST_F(EditedRobot, MissingFileIsNamed) {
   edit("ballbot.yaml", "", "ballbot.urdf", "nowhere.urdf");
   EXPECT_EQ(error(), "nowhere.urdf: cannot be read");
