@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/yaml_file.hpp"
 #include "experiment/text_file.hpp"
+#include "model/robot_reader.hpp"
 
 namespace ballbot {
 namespace {
@@ -50,19 +51,19 @@ std::vector<MetricLimit> readRequirements(const ConfigNode& node) {
   return out;
 }
 
-/// The URDF named in the robot section, relative to the file that names it.
-std::string urdfPath(const ConfigNode& robot) {
+/// The URDF named in the robot section. @throw InputError if there is no such file.
+std::string requireUrdf(const ConfigNode& robot) {
   const ConfigNode* urdf = robot.find("urdf");
   if (!urdf || urdf->kind() != ConfigNode::Kind::kScalar) {
     throw InputError(fmt::format("{}: key 'urdf' (a file name) is missing in 'robot'",
                                  toText(robot.where())));
   }
-  const fs::path path = fs::path(urdf->where().source).parent_path() / urdf->text();
+  const std::string path = urdfPath(*urdf);
   if (!fs::is_regular_file(path)) {
     throw InputError(fmt::format("{}: urdf is '{}', but there is no file '{}'",
-                                 toText(urdf->where()), urdf->text(), path.lexically_normal().string()));
+                                 toText(urdf->where()), urdf->text(), path));
   }
-  return path.lexically_normal().string();
+  return path;
 }
 
 constexpr const char* kSections[] = {"robot",     "plant",    "initial",    "environment",
@@ -121,7 +122,7 @@ Scenario loadScenario(const std::string& path, const std::vector<std::string>& o
     ConfigReader initial_in(*initial, "initial");  // the plant reads, and finishes, the rest of it
     s.release = kSimStart + initial_in.durationOr("release_s", SimDuration::zero(), {0, 100});
   }
-  s.urdf_path = urdfPath(s.section("robot"));
+  s.urdf_path = requireUrdf(s.section("robot"));
   return s;
 }
 
