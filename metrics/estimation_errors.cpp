@@ -22,7 +22,7 @@ Matrix3 attitude(const StateVector& x) {
 
 }  // namespace
 
-void EstimationErrors::add(const TruthFrame& truth, const StateEstimate& estimate) {
+void EstimationErrors::add(const TruthFrame& truth, const StateVector& estimate) {
   if (truth.time < release_) return;
   const StateVector& x_true = truth.state;
   if (!started_) {
@@ -39,35 +39,31 @@ void EstimationErrors::add(const TruthFrame& truth, const StateEstimate& estimat
   const Eigen::Vector2d velocity = to_home * x_true.segment<2>(kPositionDim + kBallVx);
 
   // The rotation about horizontal axes that takes the estimated vertical to the true one.
-  const Matrix3 R_estimate = attitude(estimate.x);
+  const Matrix3 R_estimate = attitude(estimate);
   const Vector3 up_true_W = R_estimate * (attitude(x_true).transpose() * Vector3::UnitZ());
-  tilt_error_W_ << up_true_W.y(), -up_true_W.x();
-  const double tilt = std::atan2(tilt_error_W_.norm(), up_true_W.z());
-  velocity_error_W_ = velocity - estimate.x.segment<2>(kPositionDim + kBallVx);
+  error_.tilt_W << up_true_W.y(), -up_true_W.x();
+  const double tilt = std::atan2(error_.tilt_W.norm(), up_true_W.z());
+  error_.velocity_W = velocity - estimate.segment<2>(kPositionDim + kBallVx);
 
   const double dt = toSeconds(truth.time - last_);
   observed_s_ += dt;
   tilt2_integral_ += dt * tilt * tilt;
-  velocity2_integral_ += dt * velocity_error_W_.squaredNorm();
+  velocity2_integral_ += dt * error_.velocity_W.squaredNorm();
   largest_tilt_ = std::max(largest_tilt_, tilt);
-  yaw_error_ = std::abs(std::remainder(x_true[kYaw] - home_yaw_ - estimate.x[kYaw], 2 * kPi));
-  position_error_ = (position - estimate.x.segment<2>(kBallX)).norm();
+  error_.yaw = std::remainder(x_true[kYaw] - home_yaw_ - estimate[kYaw], 2 * kPi);
+  error_.position_W = position - estimate.segment<2>(kBallX);
   distance_ += (x_true.segment<2>(kBallX) - last_position_).norm();
   last_position_ = x_true.segment<2>(kBallX);
   last_ = truth.time;
 }
 
-void EstimationErrors::addConsistency(const TwoStateFilter& filter) {
-  if (!started_ || filter.stateTime() != last_) return;
-  Eigen::Matrix<double, 4, kTangentDim> pick = Eigen::Matrix<double, 4, kTangentDim>::Zero();
-  pick.block<2, 3>(0, kTanAttitude) = filter.state().R_WB.topRows<2>();
-  pick.block<2, 2>(2, kTanVelocity).setIdentity();
-  const Eigen::Matrix4d P = pick * filter.covariance() * pick.transpose();
-  const Eigen::Vector4d e(tilt_error_W_.x(), tilt_error_W_.y(), velocity_error_W_.x(),
-                          velocity_error_W_.y());
-  nees_sum_ += e.dot(Eigen::Vector4d(P.llt().solve(e)));
-  nis_sum_ += filter.nis();
-  nis_degrees_sum_ += filter.nisDegrees();
+void EstimationErrors::addConsistency(const SelfAssessment& assessment) {
+  if (!started_ || assessment.time != last_) return;
+  Eigen::Vector4d e;
+  e << error_.tilt_W, error_.velocity_W;
+  nees_sum_ += e.dot(Eigen::Vector4d(assessment.tilt_velocity_covariance.llt().solve(e)));
+  nis_sum_ += assessment.nis;
+  nis_degrees_sum_ += assessment.nis_degrees;
   ++consistency_samples_;
 }
 
@@ -77,11 +73,11 @@ std::map<std::string, double> EstimationErrors::values() const {
     out["tilt_rms_deg"] = std::sqrt(tilt2_integral_ / observed_s_) / kDeg;
     out["largest_tilt_error_deg"] = largest_tilt_ / kDeg;
     out["velocity_rms_m_per_s"] = std::sqrt(velocity2_integral_ / observed_s_);
-    out["yaw_error_deg"] = yaw_error_ / kDeg;
-    out["position_error_m"] = position_error_;
+    out["yaw_error_deg"] = std::abs(error_.yaw) / kDeg;
+    out["position_error_m"] = error_.position_W.norm();
   }
   if (distance_ > kDistanceWorthDividingBy) {
-    out["position_drift_percent"] = 100 * position_error_ / distance_;
+    out["position_drift_percent"] = 100 * error_.position_W.norm() / distance_;
   }
   if (consistency_samples_ > 0) {
     out["nees_mean"] = nees_sum_ / consistency_samples_;
@@ -89,6 +85,12 @@ std::map<std::string, double> EstimationErrors::values() const {
     out["nis_degrees_mean"] = nis_degrees_sum_ / consistency_samples_;
   }
   return out;
+}
+
+std::vector<std::string> EstimationErrors::names() {
+  return {"tilt_rms_deg",     "largest_tilt_error_deg", "velocity_rms_m_per_s",
+          "yaw_error_deg",    "position_error_m",       "position_drift_percent",
+          "nees_mean",        "nis_mean",               "nis_degrees_mean"};
 }
 
 }  // namespace ballbot
