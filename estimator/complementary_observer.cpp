@@ -6,6 +6,7 @@
 
 #include "core/config_reader.hpp"
 #include "estimator/attitude.hpp"
+#include "estimator/delay_compensation.hpp"
 #include "model/frames.hpp"
 
 namespace ballbot {
@@ -60,22 +61,22 @@ void ComplementaryObserver::update(const SensorFrame& frame, bool at_rest) noexc
 void ComplementaryObserver::align(const SensorFrame& frame) noexcept {
   // Without any rest the first sample serves as well as it can; the estimate then is not aligned.
   alignment_.add(frame.accel_B, released_ ? Vector3::Zero() : frame.gyro_WB_B);
-  R_WB_ = alignment_.attitude();
-  gyro_bias_ = alignment_.gyroBias();
+  x_.R_WB = alignment_.attitude();
+  x_.gyro_bias = alignment_.gyroBias();
   time_ = frame.imu_time;
   joint_angle_ = joints_.at(time_);
 }
 
 void ComplementaryObserver::step(const SensorFrame& frame) noexcept {
   const double h = toSeconds(frame.imu_time - time_);
-  const Vector3 w = frame.gyro_WB_B - gyro_bias_;
-  const Matrix3 R_mid = R_WB_ * expSO3(0.5 * h * w);
-  Matrix3 R_new = R_WB_ * expSO3(h * w);
+  const Vector3 w = frame.gyro_WB_B - x_.gyro_bias;
+  const Matrix3 R_mid = x_.R_WB * expSO3(0.5 * h * w);
+  const Matrix3 R_gyro = x_.R_WB * expSO3(h * w);
 
   // Specific force moves the IMU; the lever arm's part is taken out by its increment.
   const Vector3 dv_imu = h * (R_mid * frame.accel_B - gravity_ * Vector3::UnitZ());
-  const Vector3 dv_lever = R_new * w.cross(p_BI_B_) - R_WB_ * w_WB_B_.cross(p_BI_B_);
-  const Eigen::Vector2d predicted = velocity_W_ + (dv_imu - dv_lever).head<2>();
+  const Vector3 dv_lever = R_gyro * w.cross(p_BI_B_) - x_.R_WB * x_.w_WB_B.cross(p_BI_B_);
+  const Eigen::Vector2d predicted = x_.v_WK_W + (dv_imu - dv_lever).head<2>();
 
   const JointVector angle = joints_.at(frame.imu_time);
   const Vector3 wheel_rates = (angle - joint_angle_).head<kWheelCount>() / h;
@@ -84,37 +85,29 @@ void ComplementaryObserver::step(const SensorFrame& frame) noexcept {
   // Gains place the poles of (velocity, tilt) at the two bandwidths.
   const double p1 = settings_.velocity_bandwidth_rad_per_s;
   const double p2 = settings_.tilt_bandwidth_rad_per_s;
-  Eigen::Vector2d innovation = odometry.velocity_W - 0.5 * (velocity_W_ + predicted);
+  Eigen::Vector2d innovation = odometry.velocity_W - 0.5 * (x_.v_WK_W + predicted);
   const double limit = settings_.velocity_innovation_limit_m_per_s;
   if (innovation.norm() > limit) innovation *= limit / innovation.norm();
-  velocity_W_ = predicted + std::min(1.0, (p1 + p2) * h) * innovation;
   // A tilt error d (rotation vector in W) shows as an acceleration g (dy, -dx).
   const Vector3 tilt_rate_W = p1 * p2 / gravity_ * Vector3(-innovation.y(), innovation.x(), 0.0);
-  R_new = expSO3(h * tilt_rate_W) * R_new;
-  const double bias_gain = std::min(1.0, h / settings_.gyro_bias_time_constant_s);
-  gyro_bias_ += bias_gain * (R_new.transpose() * (odometry.spin * Vector3::UnitZ() - tilt_rate_W));
 
-  R_WB_ = orthonormalized(R_new);
-  yaw_ = unwrapped(yawPitchRollFromRotation(R_WB_)[0], yaw_);
-  position_W_ += h * odometry.velocity_W;
-  w_WB_B_ = w;
+  x_.p_WK_W += h * odometry.velocity_W;
+  x_.R_WB = orthonormalized(expSO3(h * tilt_rate_W) * R_gyro);
+  x_.v_WK_W = predicted + std::min(1.0, (p1 + p2) * h) * innovation;
+  x_.w_WB_B = w;
+  const double bias_gain = std::min(1.0, h / settings_.gyro_bias_time_constant_s);
+  x_.gyro_bias +=
+      bias_gain * (x_.R_WB.transpose() * (odometry.spin * Vector3::UnitZ() - tilt_rate_W));
+  yaw_ = unwrapped(yawPitchRollFromRotation(x_.R_WB)[0], yaw_);
   joint_angle_ = angle;
   time_ = frame.imu_time;
 }
 
 StateEstimate ComplementaryObserver::estimate(SimTime now) const noexcept {
-  const double ahead = toSeconds(now - time_);
-  const bool moving = released_ && alignment_.samples() > 0;
-  const Vector3 ypr =
-      yawPitchRollFromRotation(moving ? Matrix3(R_WB_ * expSO3(ahead * w_WB_B_)) : R_WB_);
-
   StateEstimate out;
   out.time = now;
   out.aligned = alignment_.samples() >= settings_.alignment_samples;
-  out.x.segment<2>(kBallX) = position_W_ + ahead * velocity_W_;
-  out.x.segment<3>(kYaw) << unwrapped(ypr[0], yaw_), ypr[1], ypr[2];
-  out.x.segment<2>(kPositionDim + kBallVx) = velocity_W_;
-  out.x.segment<3>(kPositionDim + kOmegaX) = w_WB_B_;
+  out.x = bringForward(x_, Eigen::Vector2d::Zero(), yaw_, now - time_);
   arm_.writeTo(now, out.x);
   return out;
 }
@@ -127,12 +120,8 @@ StateBlob ComplementaryObserver::saveState() const {
   out.put(imu_count_);
   out.put(released_);
   out.put(toNs(time_));
-  out.putDoubles(R_WB_.data(), 9);
+  x_.save(out);
   out.put(yaw_);
-  out.putDoubles(position_W_.data(), 2);
-  out.putDoubles(velocity_W_.data(), 2);
-  out.putDoubles(w_WB_B_.data(), 3);
-  out.putDoubles(gyro_bias_.data(), 3);
   out.putDoubles(joint_angle_.data(), kJointCount);
   return out.seal(kBlobKind, kBlobVersion);
 }
@@ -146,12 +135,8 @@ void ComplementaryObserver::restoreState(const StateBlob& blob) {
   next.imu_count_ = in.get<std::int64_t>();
   next.released_ = in.get<bool>();
   next.time_ = simTimeFromNs(in.get<std::int64_t>());
-  in.getDoubles(next.R_WB_.data(), 9);
+  next.x_.restore(in);
   next.yaw_ = in.get<double>();
-  in.getDoubles(next.position_W_.data(), 2);
-  in.getDoubles(next.velocity_W_.data(), 2);
-  in.getDoubles(next.w_WB_B_.data(), 3);
-  in.getDoubles(next.gyro_bias_.data(), 3);
   in.getDoubles(next.joint_angle_.data(), kJointCount);
   in.finish();
   *this = next;

@@ -2,6 +2,7 @@
 
 #include "estimator/arm_sensing.hpp"
 #include "estimator/estimator.hpp"
+#include "estimator/filter_state.hpp"
 #include "estimator/joint_history.hpp"
 #include "estimator/rest_alignment.hpp"
 #include "estimator/wheel_odometry.hpp"
@@ -62,13 +63,9 @@ class ComplementaryObserver final : public Estimator {
   RestAlignment alignment_;
   std::int64_t imu_count_ = 0;
   bool released_ = false;
-  SimTime time_{};  ///< of what follows: the last IMU sample
-  Matrix3 R_WB_ = Matrix3::Identity();
-  double yaw_ = 0;  ///< continuous [rad]
-  Eigen::Vector2d position_W_ = Eigen::Vector2d::Zero();
-  Eigen::Vector2d velocity_W_ = Eigen::Vector2d::Zero();
-  Vector3 w_WB_B_ = Vector3::Zero();
-  Vector3 gyro_bias_ = Vector3::Zero();
+  SimTime time_{};                                 ///< of what follows: the last IMU sample
+  FilterState x_;                                  ///< its accelerometer bias stays zero
+  double yaw_ = 0;                                 ///< continuous [rad]
   JointVector joint_angle_ = JointVector::Zero();  ///< at time_
 };
 

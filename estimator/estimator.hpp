@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/state_blob.hpp"
 #include "core/time.hpp"
 #include "estimator/rejections.hpp"
@@ -18,18 +20,33 @@ struct StateEstimate {
   bool aligned = false;  ///< false until enough rest was seen to know tilt and gyro bias
 };
 
+/// What a filter thinks of itself at the time of its own state, which is that of the last inertial
+/// sample; for whoever holds that against the truth.
+struct SelfAssessment {
+  SimTime time{};
+  /// Covariance of the errors of tilt about the horizontal axes of W [rad] and of vx, vy [m/s].
+  Eigen::Matrix4d tilt_velocity_covariance = Eigen::Matrix4d::Zero();
+  double nis = 0;       ///< normalised innovation squared of the last update
+  int nis_degrees = 0;  ///< its degrees of freedom, which are its expectation
+  Vector3 accel_bias = Vector3::Zero();  ///< as estimated, in B [m/s^2]
+  Vector3 gyro_bias = Vector3::Zero();   ///< likewise [rad/s]
+};
+
 /// From sensor frames to the whole-body state. No call but the constructor allocates or throws.
 class Estimator {
  public:
   virtual ~Estimator() = default;
 
-  /// Takes every sensor frame of the run in order, also those with nothing new for this estimator.
+  /// Takes the sensor frames of a run in order, one per period of the estimator.
   /// `at_rest`: the robot is known to be held still (before its release), so tilt and biases may
   /// be taken from what the sensors say.
   virtual void update(const SensorFrame& frame, bool at_rest) noexcept = 0;
 
   /// The estimate brought forward to `now`, at or after the last frame's time.
   virtual StateEstimate estimate(SimTime now) const noexcept = 0;
+
+  /// Nothing where an estimator keeps no account of its uncertainty, or has not begun to.
+  virtual std::optional<SelfAssessment> selfAssessment() const noexcept { return std::nullopt; }
 
   /// What was not believed so far, and why.
   virtual RejectionCounts rejections() const noexcept { return {}; }

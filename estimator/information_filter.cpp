@@ -24,7 +24,7 @@ void InformationFilter::initialise(const FilterState& x,
                                    const TangentMatrix& information) noexcept {
   x_ = x;
   setInformation(information);
-  smooth_accel_ = {};
+  smooth_velocity_.jumpTo(x.v_WK_W);
   accel_W_.setZero();
   gate_.forget();
 }
@@ -32,7 +32,9 @@ void InformationFilter::initialise(const FilterState& x,
 void InformationFilter::step(const IntervalMeasurement& measured,
                              RejectionCounts& counts) noexcept {
   IntervalMeasurement m = measured;
-  m.smooth_accel_W = smooth_accel_.value();
+  m.smooth_v_old_W = smooth_velocity_.value();
+  smooth_velocity_.advance(x_.v_WK_W, m.h);
+  m.smooth_v_new_W = smooth_velocity_.value();
   std::array<bool, kWheelCount> use = gate_.usable(m.has_wheel);
   FilterState next = model_.predict(x_, m);
 
@@ -50,7 +52,6 @@ void InformationFilter::step(const IntervalMeasurement& measured,
   }
   next = next.plus(update_.delta());
   accel_W_ = (next.v_WK_W - x_.v_WK_W) / m.h;
-  smooth_accel_.add(accel_W_, m.h);
   x_ = next;
   information_ = update_.information();
   covariance_root_ = update_.covarianceRoot();
@@ -123,7 +124,7 @@ void InformationFilter::save(BlobWriter& out) const {
   x_.save(out);
   out.putDoubles(information_.data(), kTangentDim * kTangentDim);
   out.putDoubles(covariance_root_.data(), kTangentDim * kTangentDim);
-  smooth_accel_.save(out);
+  smooth_velocity_.save(out);
   out.putDoubles(accel_W_.data(), 2);
   gate_.save(out);
   out.put(nis_);
@@ -134,7 +135,7 @@ void InformationFilter::restore(BlobReader& in) {
   x_.restore(in);
   in.getDoubles(information_.data(), kTangentDim * kTangentDim);
   in.getDoubles(covariance_root_.data(), kTangentDim * kTangentDim);
-  smooth_accel_.restore(in);
+  smooth_velocity_.restore(in);
   in.getDoubles(accel_W_.data(), 2);
   gate_.restore(in);
   nis_ = in.get<double>();

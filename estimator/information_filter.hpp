@@ -1,7 +1,7 @@
 #pragma once
 
 #include "estimator/outlier_gate.hpp"
-#include "estimator/smooth_acceleration.hpp"
+#include "estimator/smooth_velocity.hpp"
 
 namespace ballbot {
 
@@ -60,7 +60,7 @@ class InformationFilter {
   FilterState x_;
   TangentMatrix information_ = TangentMatrix::Identity();
   TangentMatrix covariance_root_ = TangentMatrix::Identity();
-  SmoothAcceleration smooth_accel_;
+  SmoothVelocity smooth_velocity_;
   Eigen::Vector2d accel_W_ = Eigen::Vector2d::Zero();
   WheelGate gate_;
   double nis_ = 0;

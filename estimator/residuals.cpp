@@ -123,7 +123,8 @@ void ResidualModel::accelRows(const FilterState& a, const FilterState& b,
   const Vector3 mean_force = 0.5 * (f_new + f_old);
   const Vector3& w = b.w_WB_B;
   y = s * (mean_force + leverArmForce(a.w_WB_B, w, m.h) + b.accel_bias - m.accel_B);
-  const Vector3 a_smooth_W(m.smooth_accel_W.x(), m.smooth_accel_W.y(), gravity_);
+  const Eigen::Vector2d dv_smooth = m.smooth_v_new_W - m.smooth_v_old_W;
+  const Vector3 a_smooth_W(dv_smooth.x() / m.h, dv_smooth.y() / m.h, gravity_);
   R_new = 0.5 * s * skew(b.R_WB.transpose() * a_smooth_W);
   R_old = 0.5 * s * skew(a.R_WB.transpose() * a_smooth_W);
   v_new = 0.5 * s / m.h * (a.R_WB + b.R_WB).transpose().leftCols<2>();
@@ -164,8 +165,10 @@ void ResidualModel::wheelRows(const FilterState& a, const FilterState& b,
   out.y.segment<3>(kRowWheels) =
       s * (base_to_wheels_ * (b.w_WB_B - 0.5 * (kappa_new + kappa_old)) - m.wheel_increment / m.h);
   const Matrix3 half = -0.5 * s * base_to_wheels_;
-  out.d_new.block<3, 3>(kRowWheels, kTanAttitude) = half * skew(kappa_new);
-  out.d_old.block<3, 3>(kRowWheels, kTanAttitude) = half * skew(kappa_old);
+  out.d_new.block<3, 3>(kRowWheels, kTanAttitude) =
+      half * skew(b.R_WB.transpose() * (J * m.smooth_v_new_W));
+  out.d_old.block<3, 3>(kRowWheels, kTanAttitude) =
+      half * skew(a.R_WB.transpose() * (J * m.smooth_v_old_W));
   out.d_new.block<3, 2>(kRowWheels, kTanVelocity) = half * (b.R_WB.transpose() * J);
   out.d_old.block<3, 2>(kRowWheels, kTanVelocity) = half * (a.R_WB.transpose() * J);
   out.d_new.block<3, 3>(kRowWheels, kTanOmega) = s * base_to_wheels_;

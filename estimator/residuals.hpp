@@ -30,11 +30,10 @@ struct IntervalMeasurement {
   Vector3 gyro_B = Vector3::Zero();   ///< mean angular velocity [rad/s]
   std::array<bool, kWheelCount> has_wheel{};
   Vector3 wheel_increment = Vector3::Zero();  ///< turn relative to the base [rad]
-  /// Acceleration of the ball centre in W at which the accelerometer is differentiated by attitude
-  /// [m/s^2]. Given from outside because (v - v-)/h carries the noise of the differentiated
-  /// gyroscope, 0.4 m/s^2 on a lever arm of 0.3 m. In the derivative it would multiply noise of
-  /// the residual, of which it is part, and make up information about the tilt of a robot at rest.
-  Eigen::Vector2d smooth_accel_W = Eigen::Vector2d::Zero();
+  /// Velocity of the ball centre in W, at begin and end, at which residuals are differentiated by
+  /// attitude (smooth_velocity.hpp says why that is not the estimate) [m/s].
+  Eigen::Vector2d smooth_v_old_W = Eigen::Vector2d::Zero();
+  Eigen::Vector2d smooth_v_new_W = Eigen::Vector2d::Zero();
 };
 
 /// First row of each residual.

@@ -178,6 +178,22 @@ StateEstimate TwoStateFilter::estimate(SimTime now) const noexcept {
   return out;
 }
 
+std::optional<SelfAssessment> TwoStateFilter::selfAssessment() const noexcept {
+  if (!running_) return std::nullopt;
+  const FilterState& x = filter_.state();
+  const TangentMatrix& C = filter_.covarianceRoot();
+  Eigen::Matrix<double, 4, kTangentDim> root;
+  root << x.R_WB.topRows<2>() * C.middleRows<3>(kTanAttitude), C.middleRows<2>(kTanVelocity);
+  SelfAssessment out;
+  out.time = time_;
+  out.tilt_velocity_covariance = root * root.transpose();
+  out.nis = filter_.nis();
+  out.nis_degrees = filter_.nisDegrees();
+  out.accel_bias = x.accel_bias;
+  out.gyro_bias = x.gyro_bias;
+  return out;
+}
+
 StateBlob TwoStateFilter::saveState() const {
   BlobWriter out;
   arm_.save(out);

@@ -21,6 +21,7 @@ class TwoStateFilter final : public Estimator {
 
   void update(const SensorFrame& frame, bool at_rest) noexcept override;
   StateEstimate estimate(SimTime now) const noexcept override;
+  std::optional<SelfAssessment> selfAssessment() const noexcept override;
   RejectionCounts rejections() const noexcept override { return counts_; }
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;

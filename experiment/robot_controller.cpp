@@ -4,22 +4,11 @@
 #include "controller/policy_sample_blob.hpp"
 #include "core/config_reader.hpp"
 #include "estimator/estimator_factory.hpp"
+#include "experiment/rejection_metrics.hpp"
+#include "messages/convert.hpp"
 #include "model/robot_reader.hpp"
 
 namespace ballbot {
-namespace {
-
-ballbot_msgs::state_estimate toMessage(const StateEstimate& e) {
-  ballbot_msgs::state_estimate m{};
-  m.sim_time_ns = toNs(e.time);
-  Eigen::Map<PositionVector>(m.q) = e.x.head<kPositionDim>();
-  Eigen::Map<VelocityVector>(m.nu) = e.x.tail<kVelocityDim>();
-  Eigen::Map<Eigen::Matrix<double, 10, 1>>(m.sigma) = e.sigma;
-  m.aligned = e.aligned;
-  return m;
-}
-
-}  // namespace
 
 RobotController::RobotController(const Scenario& scenario, EventCalendar& calendar)
     : release_(scenario.release),
@@ -52,10 +41,13 @@ RobotController::RobotController(const Scenario& scenario, EventCalendar& calend
 
 void RobotController::onSensors(SimTime now, const SensorFrame& sensors, DueTasks due,
                                 ControlOutput& out) noexcept {
-  estimator_->update(sensors, now < release_);
   if (due.has(estimator_task_)) {
+    // Frames in between are not its business: so the log, which keeps one frame per period of the
+    // estimator, holds all that it ever saw.
+    estimator_->update(sensors, now < release_);
+    const StateEstimate estimate = estimator_->estimate(now);
     out.has_estimate = true;
-    out.estimate = toMessage(estimator_->estimate(now));
+    toMessage(now, estimate.x, estimate.sigma, estimate.aligned, out.estimate);
   }
   // A plan that has become old enough acts before a new one is begun.
   if (plan_pending_ && now >= pending_since_ + plan_latency_) {
@@ -142,10 +134,12 @@ void RobotController::restoreState(const StateBlob& blob) {
 
 std::map<std::string, double> RobotController::counters() const {
   const auto number = [](std::int64_t n) { return static_cast<double>(n); };
-  return {{"plans", number(plans_)},
-          {"plans_refused", number(plans_refused_)},
-          {"ticks_saturated", number(ticks_saturated_)},
-          {"ticks_not_finite", number(ticks_not_finite_)}};
+  std::map<std::string, double> out = rejectionMetrics(estimator_->rejections());
+  out["plans"] = number(plans_);
+  out["plans_refused"] = number(plans_refused_);
+  out["ticks_saturated"] = number(ticks_saturated_);
+  out["ticks_not_finite"] = number(ticks_not_finite_);
+  return out;
 }
 
 }  // namespace ballbot

@@ -30,8 +30,11 @@ class RobotController final : public SteppedController {
   void restoreState(const StateBlob& blob) override;
 
   /// Counts over the run, for the summary: plans made and refused, ticks with saturated torque or
-  /// a command that was not finite.
+  /// a command that was not finite, and what the estimator rejected.
   std::map<std::string, double> counters() const;
+
+  /// For those who hold the estimator's own judgement against the truth.
+  const Estimator& estimator() const { return *estimator_; }
 
   /// Measures the wall-clock time of each plan() call, up to `capacity` of them [ns]; a fact of the
   /// machine, never part of a result.

@@ -8,12 +8,15 @@
 #include "cosim/serve.hpp"
 #include "cosim/step_master.hpp"
 #include "experiment/ee_reference.hpp"
+#include "experiment/estimate_log.hpp"
 #include "experiment/plant_link.hpp"
 #include "experiment/robot_controller.hpp"
 #include "experiment/run_record.hpp"
 #include "experiment/run_report.hpp"
+#include "messages/convert.hpp"
 #include "metrics/balance_metrics.hpp"
 #include "metrics/ee_step_metrics.hpp"
+#include "metrics/estimation_errors.hpp"
 #include "metrics/push_metrics.hpp"
 #include "plant/environment.hpp"
 
@@ -29,6 +32,7 @@ std::int64_t wallNs() {
 RecorderOptions readRecorderOptions(const Scenario& scenario, const std::string& log_path) {
   RecorderOptions options;
   options.log_path = log_path;
+  options.sensors = options.estimate = scenario.rates.estimator;
   if (const ConfigNode* node = scenario.tree.find("recording")) {
     ConfigReader in(*node, "recording");
     options.read(in);
@@ -42,6 +46,7 @@ std::vector<std::string> knownMetrics(const RobotController& controller) {
   std::vector<std::string> names = BalanceMetrics::names();
   for (const std::string& name : PushMetrics::names()) names.push_back(name);
   for (const std::string& name : EeStepMetrics::names()) names.push_back(name);
+  for (const std::string& name : EstimationErrors::names()) names.push_back(name);
   for (const auto& counter : controller.counters()) names.push_back(counter.first);
   return names;
 }
@@ -92,6 +97,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   Recorder recorder(readRecorderOptions(scenario, folder.logFile()));
   BalanceMetrics metrics(scenario.release);
   PushMetrics push_metrics(pushIntervals(scenario));
+  EstimationErrors estimation_errors = makeEstimationErrors(scenario);
   EeStepMetrics step_metrics(reference.initial, reference.steps, kSimStart + scenario.duration);
 
   MasterOptions master_options;
@@ -103,6 +109,12 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
       metrics.add(*tick.truth, tick.control.command);
       push_metrics.add(*tick.truth);
       step_metrics.add(*tick.truth);
+      if (tick.control.has_estimate) {
+        estimation_errors.add(*tick.truth, stateOf(tick.control.estimate));
+        if (const auto own = controller.estimator().selfAssessment()) {
+          estimation_errors.addConsistency(*own);
+        }
+      }
     }
     if (options.progress) options.progress(tick.time);
     return !metrics.fell();
@@ -131,6 +143,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   result.metrics = metrics.values();
   for (const auto& value : push_metrics.values()) result.metrics.insert(value);
   for (const auto& value : step_metrics.values()) result.metrics.insert(value);
+  for (const auto& value : estimation_errors.values()) result.metrics.insert(value);
   for (const auto& counter : controller.counters()) result.metrics.insert(counter);
   result.verdicts = judge(scenario.requirements, result.metrics, known_metrics);
   result.passed = result.completed && !result.fell;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/build_info.hpp"
+#include "experiment/rejection_metrics.hpp"
 #include "experiment/text_file.hpp"
 
 namespace ballbot {
@@ -43,7 +44,12 @@ Json summaryJson(const Scenario& scenario, const RunResult& result) {
     if (it != result.metrics.end()) s[name] = it->second;
   }
   s["metrics"] = Json::object();
-  for (const auto& [name, value] : result.metrics) s["metrics"][name] = value;
+  const auto rejected = rejectionsAmong(result.metrics);
+  for (const auto& [name, value] : result.metrics) {
+    if (name.rfind("rejected_", 0) != 0) s["metrics"][name] = value;
+  }
+  s["rejected"] = Json::object();  // what the estimator did not believe; reasons not met are left out
+  for (const auto& [reason, count] : rejected) s["rejected"][reason] = count;
   s["requirements"] = Json::array();
   for (const VerdictRow& row : result.verdicts) {
     Json r;

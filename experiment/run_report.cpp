@@ -9,6 +9,7 @@
 #include "experiment/build_info.hpp"
 #include "experiment/ee_reference.hpp"
 #include "experiment/log_tables.hpp"
+#include "experiment/rejection_metrics.hpp"
 #include "experiment/run_replay.hpp"
 #include "experiment/text_file.hpp"
 #include "metrics/balance_metrics.hpp"
@@ -167,7 +168,10 @@ void addVerdicts(const RunResult& result, ReportData& data) {
                                  unitOfMetric(row.metric), row.passed});
   }
   for (const auto& [name, value] : result.metrics) {
-    data.metrics.push_back({"", name, value, unitOfMetric(name)});
+    if (name.rfind("rejected_", 0) != 0) data.metrics.push_back({"", name, value, unitOfMetric(name)});
+  }
+  for (const auto& [reason, count] : rejectionsAmong(result.metrics)) {
+    data.metrics.push_back({"Rejected by the estimator", reason, count, ""});
   }
 }
 

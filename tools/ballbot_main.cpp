@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   addCheckCommand(program, result);
   addCompareCommand(program, result);
   addExportCommand(program, result);
+  addEstimateCommand(program, result);
   addPlantCommand(program, result);
   addControllerCommand(program, result);
   addRelayCommand(program, result);

@@ -15,6 +15,7 @@ void addPlantCommand(CLI::App& program, ExitCode& result);
 void addControllerCommand(CLI::App& program, ExitCode& result);
 void addRelayCommand(CLI::App& program, ExitCode& result);
 void addExportCommand(CLI::App& program, ExitCode& result);
+void addEstimateCommand(CLI::App& program, ExitCode& result);
 void addDoctorCommand(CLI::App& program, ExitCode& result);
 
 }  // namespace ballbot

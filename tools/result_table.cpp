@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "experiment/rejection_metrics.hpp"
+
 namespace ballbot {
 
 std::string resultTable(const Scenario& scenario, const RunResult& result) {
@@ -18,6 +20,10 @@ std::string resultTable(const Scenario& scenario, const RunResult& result) {
     out += fmt::format("  {:<32} {:>12} {:<6} {:<12} {}\n", row.metric,
                        row.measured ? fmt::format("{:.4g}", row.value) : "none", unitOfMetric(row.metric),
                        row.limit, row.passed ? "ok" : "MISSED");
+  }
+  const auto rejected = rejectionsAmong(result.metrics);
+  if (!rejected.empty()) {
+    out += fmt::format("  {:<32} {}\n", "rejected by the estimator", rejectionText(rejected));
   }
   out += fmt::format("  {:<32} {}\n", "trajectory digest", result.trajectory_digest);
   out += fmt::format("  {:<32} {:.2f} s in {:.2f} s, {:.2f} times real time\n", "simulated",

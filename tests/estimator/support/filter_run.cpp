@@ -50,7 +50,8 @@ RunErrors play(const FilterRun& run, RejectionCounts* counts) {
     e.nees_mean += error.dot(filter.information() * error);
     e.nis_mean += filter.nis();
     e.position_end = error.segment<2>(kTanPosition).norm();
-    e.yaw_end_deg = std::abs(filter.estimate(frame.time).x[kYaw] - truth.motion.yaw_pitch_roll[0]) / kDeg;
+    e.yaw_end_deg =
+        std::abs(filter.estimate(frame.time).x[kYaw] - truth.motion.yaw_pitch_roll[0]) / kDeg;
     ++samples;
     if (run.observe) run.observe(filter, truth);
   }

@@ -7,8 +7,6 @@
 
 namespace ballbot::test {
 
-constexpr double kDeg = 3.14159265358979323846 / 180;
-
 /// The truth in the filter's own terms.
 FilterState truthAsFilterState(const Truth& truth);
 
@@ -21,9 +19,9 @@ struct RunErrors {
   double velocity_rms = 0, velocity_max = 0;  ///< [m/s]
   double position_end = 0;                    ///< [m]
   double yaw_end_deg = 0;
-  double distance = 0;                        ///< covered by the ball [m]
-  double nees_mean = 0;                       ///< all 16, expected 16
-  double nis_mean = 0;                        ///< expected 4 while all wheels and the IMU are used
+  double distance = 0;   ///< covered by the ball [m]
+  double nees_mean = 0;  ///< all 16, expected 16
+  double nis_mean = 0;   ///< expected 4 while all wheels and the IMU are used
 };
 
 struct FilterRun {

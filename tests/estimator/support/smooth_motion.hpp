@@ -8,6 +8,8 @@
 
 namespace ballbot::test {
 
+constexpr double kDeg = 3.14159265358979323846 / 180;
+
 /// amplitude * (sin(2 pi frequency t + phase) - sin(phase)), t from the release.
 struct Harmonic {
   double amplitude = 0;  ///< [m] or [rad]

@@ -1,0 +1,147 @@
+#include "experiment/estimate_log.hpp"
+
+#include <limits>
+#include <memory>
+
+#include "core/config_reader.hpp"
+#include "core/error.hpp"
+#include "estimator/estimator_factory.hpp"
+#include "experiment/rejection_metrics.hpp"
+#include "messages/convert.hpp"
+#include "messages/wire.hpp"
+#include "model/robot_reader.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr double kDegPerRad = 57.295779513082320877;
+
+std::unique_ptr<Estimator> estimatorOf(const Scenario& scenario) {
+  ConfigReader robot_in(scenario.section("robot"), "robot");
+  ConfigReader in(scenario.section("estimator"), "estimator");
+  return makeEstimator(in, readRobot(robot_in));
+}
+
+/// One row per estimate, in the units people read.
+class ErrorTable {
+ public:
+  ErrorTable() {
+    table_.name = "estimation_error";
+    const char* const columns[][2] = {
+        {"time_s", "s"},           {"tilt_x", "deg"},         {"tilt_y", "deg"},
+        {"vx", "m/s"},             {"vy", "m/s"},             {"px", "m"},
+        {"py", "m"},               {"yaw", "deg"},            {"accel_bias_x", "m/s^2"},
+        {"accel_bias_y", "m/s^2"}, {"accel_bias_z", "m/s^2"}, {"gyro_bias_x", "rad/s"},
+        {"gyro_bias_y", "rad/s"},  {"gyro_bias_z", "rad/s"},  {"nis", ""},
+        {"nis_degrees", ""}};
+    for (const auto& column : columns) table_.columns.push_back({column[0], column[1], {}});
+    for (int i = 0; i < kRejectionCount; ++i) {
+      table_.columns.push_back(
+          {std::string("rejected_") + toText(static_cast<Rejection>(i)), "", {}});
+    }
+  }
+
+  void add(SimTime time, const EstimationError* e, const Estimator& estimator) {
+    const auto own = estimator.selfAssessment();
+    next_ = 0;
+    put(toSeconds(time));
+    put(e ? kDegPerRad * e->tilt_W.x() : kNone);
+    put(e ? kDegPerRad * e->tilt_W.y() : kNone);
+    for (int i = 0; i < 2; ++i) put(e ? e->velocity_W[i] : kNone);
+    for (int i = 0; i < 2; ++i) put(e ? e->position_W[i] : kNone);
+    put(e ? kDegPerRad * e->yaw : kNone);
+    for (int i = 0; i < 3; ++i) put(own ? own->accel_bias[i] : kNone);
+    for (int i = 0; i < 3; ++i) put(own ? own->gyro_bias[i] : kNone);
+    put(own ? own->nis : kNone);
+    put(own ? own->nis_degrees : kNone);
+    const RejectionCounts counts = estimator.rejections();
+    for (int i = 0; i < kRejectionCount; ++i) {
+      put(static_cast<double>(counts[static_cast<Rejection>(i)]));
+    }
+  }
+  LogTable take() { return std::move(table_); }
+
+ private:
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  void put(double value) { table_.columns[next_++].values.push_back(value); }
+  LogTable table_;
+  std::size_t next_ = 0;
+};
+
+/// Holds new estimates against the recorded ones of the same time, in the order of time.
+class OnlineComparison {
+ public:
+  explicit OnlineComparison(const std::vector<ballbot_msgs::state_estimate>& recorded)
+      : recorded_(recorded) {}
+
+  void add(const ballbot_msgs::state_estimate& estimate, LogEstimate& out) {
+    while (next_ < recorded_.size() && recorded_[next_].sim_time_ns < estimate.sim_time_ns) ++next_;
+    if (next_ == recorded_.size() || recorded_[next_].sim_time_ns != estimate.sim_time_ns) return;
+    ++out.compared;
+    encodeMessage(estimate, bytes_);
+    encodeMessage(recorded_[next_], recorded_bytes_);
+    if (bytes_ != recorded_bytes_ && !out.first_difference) {
+      out.first_difference = simTimeFromNs(estimate.sim_time_ns);
+    }
+  }
+
+ private:
+  const std::vector<ballbot_msgs::state_estimate>& recorded_;
+  std::size_t next_ = 0;
+  Bytes bytes_, recorded_bytes_;
+};
+
+}  // namespace
+
+EstimationErrors makeEstimationErrors(const Scenario& scenario) {
+  const bool absolute = scenario.section("estimator").find("external_pose") != nullptr;
+  return EstimationErrors(scenario.release, absolute);
+}
+
+LogEstimate estimateLog(const Scenario& scenario, const RunLog& log) {
+  if (log.sensors.empty()) {
+    throw InputError("the log holds no sensor frames; was recording.sensors_period_ms negative?");
+  }
+  const std::unique_ptr<Estimator> estimator = estimatorOf(scenario);
+  const SimDuration period = scenario.rates.estimator;
+  EstimationErrors errors = makeEstimationErrors(scenario);
+  ErrorTable table;
+  OnlineComparison comparison(log.estimates);
+  LogEstimate out;
+  out.has_truth = !log.truth.empty();
+  auto truth_message = log.truth.begin();
+  std::int64_t last_period = -1;
+  for (const ballbot_msgs::sensor_frame& message : log.sensors) {
+    SensorFrame frame;
+    fromMessage(message, frame);
+    const std::int64_t in_period = frame.time.time_since_epoch() / period;
+    if (in_period <= last_period) continue;
+    last_period = in_period;
+    estimator->update(frame, frame.time < scenario.release);
+    const StateEstimate estimate = estimator->estimate(frame.time);
+    ballbot_msgs::state_estimate estimate_message{};
+    toMessage(frame.time, estimate.x, estimate.sigma, estimate.aligned, estimate_message);
+    estimate_message.tick = message.tick;
+    comparison.add(estimate_message, out);
+    out.estimates.push_back(estimate_message);
+
+    while (truth_message != log.truth.end() && truth_message->sim_time_ns < toNs(frame.time)) {
+      ++truth_message;
+    }
+    const bool known =
+        truth_message != log.truth.end() && truth_message->sim_time_ns == toNs(frame.time);
+    if (known) {
+      TruthFrame truth;
+      fromMessage(*truth_message, truth);
+      errors.add(truth, estimate.x);
+      if (const auto own = estimator->selfAssessment()) errors.addConsistency(*own);
+    }
+    table.add(frame.time, known && errors.started() ? &errors.last() : nullptr, *estimator);
+  }
+  out.metrics = errors.values();
+  for (const auto& count : rejectionMetrics(estimator->rejections())) out.metrics.insert(count);
+  out.errors = table.take();
+  return out;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,132 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "cosim/log_reader.hpp"
+#include "experiment/estimate_log.hpp"
+#include "experiment/estimate_report.hpp"
+#include "experiment/rejection_metrics.hpp"
+#include "experiment/run_folder.hpp"
+#include "experiment/text_file.hpp"
+#include "experiment/verdict.hpp"
+#include "tools/commands.hpp"
+#include "tools/table_export.hpp"
+
+namespace ballbot {
+namespace {
+
+struct EstimateArguments {
+  std::string run, scenario, out;
+  std::vector<std::string> overrides;
+  bool json = false, no_report = false;
+};
+
+struct Sources {
+  std::string log, scenario, out;
+};
+
+/// A run folder holds log and scenario; a log alone needs to be told whose it is.
+Sources sourcesOf(const EstimateArguments& a) {
+  if (std::filesystem::is_directory(a.run)) {
+    const RunFolder folder = RunFolder::open(a.run);
+    return {folder.logFile(), a.scenario.empty() ? folder.scenarioFile() : a.scenario,
+            a.out.empty() ? folder.path() + "/estimate" : a.out};
+  }
+  if (a.scenario.empty()) {
+    throw InputError(fmt::format(
+        "{}: is not a run folder. For a log alone say whose robot and estimator: --scenario FILE",
+        a.run));
+  }
+  return {a.run, a.scenario, a.out.empty() ? a.run + ".estimate" : a.out};
+}
+
+nlohmann::ordered_json toJson(const LogEstimate& e) {
+  nlohmann::ordered_json out;
+  for (const auto& [name, value] : e.metrics) {
+    if (name.rfind("rejected_", 0) != 0) out[name] = value;
+  }
+  out["rejected"] = nlohmann::ordered_json::object();
+  for (const auto& [reason, count] : rejectionsAmong(e.metrics)) out["rejected"][reason] = count;
+  out["estimates"] = e.estimates.size();
+  out["compared_with_online"] = e.compared;
+  out["identical_to_online"] = e.identical();
+  if (e.first_difference) out["first_difference_s"] = toSeconds(*e.first_difference);
+  return out;
+}
+
+std::string onlineText(const LogEstimate& e) {
+  if (e.compared == 0) return "the log holds none";
+  if (e.identical()) return fmt::format("identical, {} of {} estimates", e.compared, e.estimates.size());
+  return fmt::format("differs from {} on", toText(*e.first_difference));
+}
+
+void printTable(const LogEstimate& e, const std::vector<std::string>& files) {
+  for (const auto& [name, value] : e.metrics) {
+    if (name.rfind("rejected_", 0) == 0) continue;
+    fmt::print("  {:<32} {:>12.4g} {}\n", name, value, unitOfMetric(name));
+  }
+  if (!e.has_truth) fmt::print("  the log holds no truth, so there are no errors\n");
+  fmt::print("  {:<32} {}\n", "rejected", rejectionText(rejectionsAmong(e.metrics)));
+  fmt::print("  {:<32} {}\n", "online estimate", onlineText(e));
+  for (const std::string& file : files) fmt::print("  {}\n", file);
+}
+
+ExitCode estimateRun(const EstimateArguments& a) {
+  const Sources from = sourcesOf(a);
+  const Scenario scenario = loadScenario(from.scenario, a.overrides);
+  const RunLog log = readRunLog(from.log);
+  const LogEstimate estimate = estimateLog(scenario, log);
+
+  RunLog made;
+  made.estimates = estimate.estimates;
+  std::vector<LogTable> tables = logTables(made);
+  tables.push_back(estimate.errors);
+  std::vector<std::string> files = exportCsv(tables, from.out);
+  files.push_back(from.out + "/estimate.json");
+  writeTextFile(files.back(), toJson(estimate).dump(2) + "\n");
+  if (!a.no_report) {
+    files.push_back(from.out + "/report.html");
+    const bool same_settings = a.overrides.empty() && a.scenario.empty();
+    writeEstimateReport(scenario, estimate, same_settings, files.back());
+  }
+  if (a.json) {
+    nlohmann::ordered_json out = toJson(estimate);
+    out["files"] = files;
+    fmt::print("{}\n", out.dump(2));
+  } else {
+    printTable(estimate, files);
+  }
+  if (log.cut_off) fmt::print(stderr, "{}: the log ends in the middle of an event; all before it was used\n", from.log);
+  return ExitCode::kPassed;
+}
+
+}  // namespace
+
+void addEstimateCommand(CLI::App& program, ExitCode& result) {
+  CLI::App* command = program.add_subcommand(
+      "estimate", "Play a run's recorded sensors to the estimator again; errors, statistics, report");
+  const auto a = std::make_shared<EstimateArguments>();
+  command->add_option("run", a->run, "Run folder, or an LCM log with the same messages")->required();
+  command->add_option("--scenario", a->scenario, "Whose robot and estimator, for a log alone");
+  command->add_option("--set", a->overrides, "path=value: another setting, e.g. estimator.iterations=3; repeatable")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option("--out", a->out, "Folder for the results (default: RUN/estimate)");
+  command->add_flag("--no-report", a->no_report, "Do not write report.html");
+  command->add_flag("--json", a->json, "Print the numbers as JSON");
+  command->footer(
+      "Examples:\n"
+      "  ballbot estimate runs/push-001\n"
+      "  ballbot estimate runs/push-001 --set estimator.noise.accel_inflation=1 --json\n"
+      "  ballbot estimate bench.lcmlog --scenario configs/scenarios/balance.yaml\n"
+      "Exit codes: 0 done, 2 bad input, 4 output could not be written.");
+  command->callback([&result, a] { result = estimateRun(*a); });
+}
+
+}  // namespace ballbot
