@@ -1,5 +1,6 @@
 #include "controller/law_factory.hpp"
 
+#include "controller/background_mpc_law.hpp"
 #include "controller/lqr_law.hpp"
 #include "controller/mpc_law.hpp"
 #include "core/config_reader.hpp"
@@ -23,6 +24,7 @@ std::unique_ptr<ControlLaw> makeControlLaw(ConfigReader& in, const RobotParamete
       ConfigReader mpc = in.child("mpc");
       MpcConfig config = MpcConfig::read(mpc, robot);
       if (in.has("lqr")) config.lqr = readLqr(in, robot);
+      if (config.solver_thread) return std::make_unique<BackgroundMpcLaw>(robot, config);
       return std::make_unique<MpcLaw>(robot, config);
     }
   }

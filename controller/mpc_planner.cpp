@@ -1,5 +1,6 @@
 #include "controller/mpc_planner.hpp"
 
+#include "controller/continuous_engine.hpp"
 #include "controller/discrete_engine.hpp"
 #include "core/config_reader.hpp"
 
@@ -11,6 +12,11 @@ std::unique_ptr<MpcEngine> makeEngineOf(const RobotParameters& robot, const MpcC
   SlqOptions options;
   options.threads = c.threads;
   options.clock = c.clock;
+  if (c.engine == MpcConfig::Engine::kContinuous) {
+    return std::make_unique<ContinuousEngine<NU>>(robot, c.constraints, c.shaping, c.terminal,
+                                                  c.horizon.knots(), c.schedule, options,
+                                                  c.continuous);
+  }
   return std::make_unique<DiscreteEngine<NU>>(robot, c.constraints, c.shaping, c.terminal,
                                               c.horizon.knots(), c.schedule, options);
 }
@@ -24,7 +30,8 @@ MpcConfig::MpcConfig(const RobotParameters& robot)
 
 MpcConfig MpcConfig::read(ConfigReader& in, const RobotParameters& robot) {
   MpcConfig c(robot);
-  c.engine = in.choiceOr<Engine>("engine", c.engine, {{"discrete", Engine::kDiscrete}});
+  c.engine = in.choiceOr<Engine>("engine", c.engine, {{"discrete", Engine::kDiscrete},
+                                                    {"continuous", Engine::kContinuous}});
   if (in.has("horizon")) {
     ConfigReader horizon = in.child("horizon");
     c.horizon = Horizon::read(horizon);
@@ -32,8 +39,15 @@ MpcConfig MpcConfig::read(ConfigReader& in, const RobotParameters& robot) {
   c.iterations = in.integerOr("iterations", c.iterations, {1, 1000});
   c.first_iterations = in.integerOr("first_iterations", c.first_iterations, {1, 1000});
   c.threads = in.integerOr("threads", c.threads, {1, 2});
+  c.solver_thread = in.booleanOr("solver_thread", c.solver_thread);
   c.contact_forces = in.booleanOr("contact_forces", c.contact_forces);
   c.fallback_after = in.durationOr("fallback_after_ms", c.fallback_after, {1, 1e6});
+  if (in.has("continuous")) {
+    ConfigReader continuous = in.child("continuous");
+    c.continuous.tolerance =
+        continuous.numberOr("relative_tolerance", c.continuous.tolerance, {1e-10, 1e-2});
+    continuous.finish();
+  }
   if (in.has("wheel_shaping")) {
     ConfigReader shaping = in.child("wheel_shaping");
     c.shaping = FrequencyShaping::read(shaping);

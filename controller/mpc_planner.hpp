@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "controller/continuous_engine.hpp"
 #include "controller/frequency_shaping.hpp"
 #include "controller/horizon.hpp"
 #include "controller/lqr_law.hpp"
@@ -16,12 +17,14 @@ struct MpcConfig {
   Horizon horizon;
   int iterations = 1;        ///< per plan
   int first_iterations = 10; ///< of a plan that starts from the LQR
-  int threads = 1;
+  int threads = 1;            ///< the solver's; results are the same with 1 and 2
+  bool solver_thread = false; ///< solve beside the control loop: for real time, not repeatable
   bool contact_forces = false;  ///< the plan has end-effector forces as inputs
   SimDuration fallback_after = std::chrono::milliseconds(100);  ///< without a good plan
   FrequencyShaping shaping;
   Constraints constraints;
   TerminalCost terminal;
+  ContinuousOptions continuous;
   std::shared_ptr<const TaskSchedule> schedule;
   LqrLawConfig lqr;  ///< seeds the first plan and takes over when plans fail
   PhaseClock clock = nullptr;

@@ -76,9 +76,11 @@ void solveFromTheRight(const double* L, const double* inverse_diagonal, double* 
 }
 
 /// K^T = -Y^T L^-1, column by column from the last.
-template <int kX, int kU, int NU>
-void gainFrom(const double* Yt, const double* L, const double* inverse_diagonal, double* Kt) {
+template <int kX, int kU, int NU, int NX>
+void gainFrom(const double* Yt, const double* L, const double* inverse_diagonal,
+              StageGain<NX, NU>& gain) {
   constexpr int kRows4 = kX / 4;
+  alignas(32) double Kt[kX * kU];
   for (int j = NU - 1; j >= 0; --j) {
     Tile<kRows4, 1> column;
     column.load(Yt + j * kX, kX);
@@ -86,6 +88,34 @@ void gainFrom(const double* Yt, const double* L, const double* inverse_diagonal,
     for (int i = 0; i < kRows4; ++i)
       store4(Kt + j * kX + 4 * i, -column.sum[0][i] * inverse_diagonal[j]);
   }
+  for (int i = 0; i <= NX; ++i)
+    for (int j = 0; j < NU; ++j) gain.Kk[i * kU + j] = Kt[j * kX + i];
+}
+
+/// The upper triangle from the lower.
+template <int kX>
+void mirror(double* S) {
+  for (int j = 0; j < kX; ++j)
+    for (int i = j + 1; i < kX; ++i) S[i * kX + j] = S[j * kX + i];
+}
+
+/// Continuous case: factor of R + shift 1 and Y^T = G^T L^-T, G^T = P^T + S B.
+template <int NX, int NU>
+bool factoriseRates(const LqStage<NX, NU>& rates, double shift, const double* S, double* L,
+                    double* inverse_diagonal, double* Yt) {
+  using Stage = LqStage<NX, NU>;
+  constexpr int kX = Stage::kX, kU = Stage::kU, kZ = Stage::kZ;
+  std::copy(std::begin(rates.Wuu), std::end(rates.Wuu), L);
+  for (int j = 0; j < NU; ++j) {
+    L[j * kU + j] += shift;
+    Tile<kX / 4, 1> tile;
+    tile.load(rates.Wxu + j * kX, kX);
+    tile.addProduct(S, kX, rates.Ft + kX + j, kZ, 0, kX);
+    tile.store(Yt + j * kX, kX);
+  }
+  if (!factorise<kU, NU>(L, inverse_diagonal)) return false;
+  solveFromTheRight<kX, kU, NU>(L, inverse_diagonal, Yt);
+  return true;
 }
 
 }  // namespace
@@ -124,7 +154,6 @@ bool riccatiStep(const LqStage<NX, NU>& stage, double shift, ValueFunction<NX>& 
   alignas(32) double T[kX * kZ];   // S [A b B]
   alignas(32) double H[kU * kU];   // then its Cholesky factor
   alignas(32) double Yt[kX * kU];  // first G^T, then (L^-1 G)^T
-  alignas(32) double Kt[kX * kU];
   double inverse_diagonal[kU];
 
   if constexpr (kX > NX + 1) std::fill(T + (NX + 1) * kX, T + kX * kX, 0.0);
@@ -148,20 +177,60 @@ bool riccatiStep(const LqStage<NX, NU>& stage, double shift, ValueFunction<NX>& 
 
   if (!factorise<kU, NU>(H, inverse_diagonal)) return false;
   solveFromTheRight<kX, kU, NU>(H, inverse_diagonal, Yt);
-  gainFrom<kX, kU, NU>(Yt, H, inverse_diagonal, Kt);
-  for (int i = 0; i <= NX; ++i)
-    for (int j = 0; j < NU; ++j) gain.Kk[i * kU + j] = Kt[j * kX + i];
-
+  gainFrom<kX, kU, NU>(Yt, H, inverse_diagonal, gain);
   updateLowerTriangle<kX, kZ, NU>(stage.Wxx, stage.Ft, T, Yt, value.S_aug);
-  for (int j = 0; j < kX; ++j)
-    for (int i = j + 1; i < kX; ++i) value.S_aug[i * kX + j] = value.S_aug[j * kX + i];
+  mirror<kX>(value.S_aug);
+  return true;
+}
+
+template <int NX, int NU>
+bool riccatiRate(const LqStage<NX, NU>& rates, double shift, const double* S_aug,
+                 double* dS_aug) noexcept {
+  using Stage = LqStage<NX, NU>;
+  constexpr int kX = Stage::kX, kU = Stage::kU, kZ = Stage::kZ;
+  alignas(32) double S[kX * kX];  // the integrator's vectors may lie anywhere
+  alignas(32) double SA[kX * kX];
+  alignas(32) double L[kU * kU];
+  alignas(32) double Yt[kX * kU];
+  double inverse_diagonal[kU];
+  std::copy_n(S_aug, kX * kX, S);
+  if (!factoriseRates(rates, shift, S, L, inverse_diagonal, Yt)) return false;
+  if constexpr (kX > NX + 1) std::fill(SA + (NX + 1) * kX, SA + kX * kX, 0.0);
+  multiplyColumns<kX, kZ, NX + 1>(S, rates.Ft, SA);
+  for (int j = 0; j < kX; ++j) {
+    Tile<kX / 4, 1> column;
+    column.load(rates.Wxx + j * kX, kX);
+    column.subtractProduct(Yt, kX, Yt + j, kX, 0, NU);
+    column.store(S, kX);
+    for (int i = j; i < kX; ++i) dS_aug[j * kX + i] = S[i] + SA[j * kX + i] + SA[i * kX + j];
+  }
+  mirror<kX>(dS_aug);
+  return true;
+}
+
+template <int NX, int NU>
+bool riccatiRateGain(const LqStage<NX, NU>& rates, double shift, const double* S_aug,
+                     StageGain<NX, NU>& gain) noexcept {
+  using Stage = LqStage<NX, NU>;
+  constexpr int kX = Stage::kX, kU = Stage::kU;
+  alignas(32) double S[kX * kX];
+  alignas(32) double L[kU * kU];
+  alignas(32) double Yt[kX * kU];
+  double inverse_diagonal[kU];
+  std::copy_n(S_aug, kX * kX, S);
+  if (!factoriseRates(rates, shift, S, L, inverse_diagonal, Yt)) return false;
+  gainFrom<kX, kU, NU>(Yt, L, inverse_diagonal, gain);
   return true;
 }
 
 #define BALLBOT_INSTANTIATE(NX, NU)                                                     \
   template struct LqStage<NX, NU>;                                                      \
   template bool riccatiStep<NX, NU>(const LqStage<NX, NU>&, double, ValueFunction<NX>&, \
-                                    StageGain<NX, NU>&) noexcept;
+                                    StageGain<NX, NU>&) noexcept;                         \
+  template bool riccatiRate<NX, NU>(const LqStage<NX, NU>&, double, const double*,        \
+                                    double*) noexcept;                                    \
+  template bool riccatiRateGain<NX, NU>(const LqStage<NX, NU>&, double, const double*,    \
+                                        StageGain<NX, NU>&) noexcept;
 template struct ValueFunction<4>;
 template struct ValueFunction<19>;
 BALLBOT_INSTANTIATE(4, 2)

@@ -38,6 +38,8 @@ struct LqStage {
   auto Pt() { return View<NX, NU, Eigen::ColMajor, kX>(Wxu); }  ///< P^T
   auto R() { return View<NU, NU, Eigen::ColMajor, kU>(Wuu); }
   auto r() { return Strided<NU, kX>(Wxu + NX); }
+  /// Makes this the expansion of a differential equation: the augmented 1 has no rate.
+  void forRates() { Ft[NX * kZ + NX] = 0; }
   void setConstant(double c) { Wxx[NX * kX + NX] = 2 * c; }
 
   alignas(32) double Ft[kX * kZ];   ///< column k: row k of [A b B]
@@ -90,5 +92,20 @@ struct ValueFunction {
 template <int NX, int NU>
 [[nodiscard]] bool riccatiStep(const LqStage<NX, NU>& stage, double shift, ValueFunction<NX>& value,
                                StageGain<NX, NU>& gain) noexcept;
+
+/// The continuous recursion, backward in time: with A and B of dx/dt = A dx + B du, costs as rates,
+/// and (1, 1) of the augmented A zero (see LqStage::forRates),
+///
+///   dS/d(-t) = Q + A^T S + S A - G^T R^-1 G,  G = P + B^T S,
+///
+/// on the augmented value [S s; s^T 2c], whole and symmetric. False if R + shift 1 is not positive
+/// definite.
+template <int NX, int NU>
+[[nodiscard]] bool riccatiRate(const LqStage<NX, NU>& rates, double shift, const double* S_aug,
+                               double* dS_aug) noexcept;
+/// K = -R^-1 G and k = -R^-1 (r + B^T s) of the same.
+template <int NX, int NU>
+[[nodiscard]] bool riccatiRateGain(const LqStage<NX, NU>& rates, double shift,
+                                   const double* S_aug, StageGain<NX, NU>& gain) noexcept;
 
 }  // namespace ballbot

@@ -7,17 +7,12 @@
 #include <mutex>
 #include <thread>
 
+#include "controller/line_search.hpp"
+
 namespace ballbot {
 namespace {
 
-constexpr double kRounding = 1e-13;      ///< a predicted decrease below this is none
-constexpr double kCostRounding = 1e-11;  ///< how far rounding may move a cost
-
-double magnitude(const CostTerms& terms) {
-  double sum = 1;
-  for (double v : terms.value) sum += std::abs(v);
-  return sum;
-}
+constexpr CostNoise kRounding{1e-11, 1e-13};
 
 }  // namespace
 
@@ -192,35 +187,16 @@ SlqReport SlqSolver<NX, NU>::iterate(const Problem& problem, const X& x0) noexce
   const std::int64_t t2 = now();
   report.times.riccati_ns = t2 - t1;
 
-  const double d = report.predicted_decrease;
-  const double size = magnitude(nominal_terms);
-  const bool nothing_to_gain = d <= kRounding * size;
-  bool accepted = false;
-  double alpha = 1;
-  for (int i = 0; i < options_.line_search_steps && !accepted; ++i) {
-    if (i > 0) alpha /= 2;
-    report.terms = tryStep(problem, alpha);
-    report.cost = report.terms.total();
-    // The quadratic model falls at the rate 2 d from alpha = 0.
-    accepted = report.cost <= report.nominal_cost - options_.armijo * alpha * 2 * d +
-                                  kCostRounding * size;
-  }
-  report.step_length = accepted ? alpha : 0;
-  if (!accepted && nothing_to_gain) {
-    report.terms = tryStep(problem, 0);  // the nominal itself, with the new gains
-    report.cost = report.terms.total();
-    accepted = true;
-  }
+  const bool accepted = searchAlongLine(
+      nominal_terms, options_, kRounding,
+      [&](double alpha) { return tryStep(problem, alpha); }, report);
   report.times.line_search_ns = now() - t2;
   if (!accepted) {
     raiseShift();
-    report.cost = report.nominal_cost;
-    report.status = SlqStatus::kNoDescent;
     return report;
   }
   shift_ = std::max(options_.base_shift, shift_ / 10);
   std::swap(solution_, candidate_);
-  report.status = nothing_to_gain ? SlqStatus::kConverged : SlqStatus::kImproved;
   return report;
 }
 

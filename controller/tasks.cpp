@@ -75,35 +75,37 @@ TaskSchedule TaskSchedule::read(ConfigReader& in, const RobotParameters& robot) 
       throw InputError(fmt::format("{} is missing: a torque must cost something", in.at(torque)));
     }
   }
+  s.preview = in.booleanOr("preview", s.preview);
   in.finish();
   return s;
 }
 
 void TaskSchedule::at(double t, double now, Tasks& out) const {
-  out.ee_position_weight = ee_position_weight.value(t);
-  out.ee_orientation_weight = ee_orientation_weight.value(t);
-  out.ee_velocity_weight = ee_velocity_weight.value(t);
-  out.ee_rate_weight = ee_rate_weight.value(t);
-  out.ball_position_weight = ball_position_weight.value(t);
-  out.yaw_weight = yaw_weight.value(t)[0];
-  out.ball_velocity_weight = ball_velocity_weight.value(t);
-  out.base_rate_weight = base_rate_weight.value(t);
-  out.arm_position_weight = arm_position_weight.value(t);
-  out.arm_rate_weight = arm_rate_weight.value(t);
-  out.wheel_torque_weight = wheel_torque_weight.value(t)[0];
-  out.arm_torque_weight = arm_torque_weight.value(t)[0];
-  out.contact_force_weight = contact_force_weight.value(t);
+  const double known = preview ? t : now;
+  out.ee_position_weight = ee_position_weight.value(t, known);
+  out.ee_orientation_weight = ee_orientation_weight.value(t, known);
+  out.ee_velocity_weight = ee_velocity_weight.value(t, known);
+  out.ee_rate_weight = ee_rate_weight.value(t, known);
+  out.ball_position_weight = ball_position_weight.value(t, known);
+  out.yaw_weight = yaw_weight.value(t, known)[0];
+  out.ball_velocity_weight = ball_velocity_weight.value(t, known);
+  out.base_rate_weight = base_rate_weight.value(t, known);
+  out.arm_position_weight = arm_position_weight.value(t, known);
+  out.arm_rate_weight = arm_rate_weight.value(t, known);
+  out.wheel_torque_weight = wheel_torque_weight.value(t, known)[0];
+  out.arm_torque_weight = arm_torque_weight.value(t, known)[0];
+  out.contact_force_weight = contact_force_weight.value(t, known);
 
-  const Vector3 angles = ee_orientation.value(t, now);
-  out.p_WE = ee_position.value(t, now);
+  const Vector3 angles = ee_orientation.value(t, known);
+  out.p_WE = ee_position.value(t, known);
   out.R_WE = rotationFromYawPitchRoll(angles[0], angles[1], angles[2]);
   out.v_WE_W = ee_position.rate(t);
   out.w_WE_W = rateFromYawPitchRoll(angles, ee_orientation.rate(t));
-  out.ball_position = ball_position.value(t, now);
+  out.ball_position = ball_position.value(t, known);
   out.ball_velocity = ball_position.rate(t);
-  out.yaw = yaw.value(t, now)[0];
-  out.arm_position = arm_position.value(t, now);
-  out.contact_force_C = contact_force.value(t, now);
+  out.yaw = yaw.value(t, known)[0];
+  out.arm_position = arm_position.value(t, known);
+  out.contact_force_C = contact_force.value(t, known);
   out.R_WC = contactFrame(contact_normal_W);
 }
 

@@ -59,6 +59,9 @@ class TaskSchedule {
   /// Tasks at time t [s] as known at `now` <= t, see TimeSignal::value. Free of allocation.
   void at(double t, double now, Tasks& out) const;
 
+  /// Whether plans know of steps and switched weights before they come. Off: they are commands.
+  bool preview = false;
+
   TimedWeight<3> ee_position_weight, ee_orientation_weight, ee_velocity_weight, ee_rate_weight;
   TimedWeight<2> ball_position_weight, ball_velocity_weight;
   TimedWeight<1> yaw_weight;

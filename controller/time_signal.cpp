@@ -90,9 +90,9 @@ Eigen::Matrix<double, N, 1> readVector(ConfigReader& in, const char* key, double
 }
 
 template <int N>
-const typename TimedWeight<N>::Vector& TimedWeight<N>::value(double t) const {
+const typename TimedWeight<N>::Vector& TimedWeight<N>::value(double t, double now) const {
   std::size_t i = changes_.size() - 1;
-  while (i > 0 && t < changes_[i].at) --i;
+  while (i > 0 && std::min(t, now) < changes_[i].at) --i;
   return changes_[i].weight;
 }
 

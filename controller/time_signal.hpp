@@ -55,7 +55,9 @@ class TimedWeight {
   using Vector = Eigen::Matrix<double, N, 1>;
 
   explicit TimedWeight(const Vector& from_start = Vector::Zero()) : changes_{{-1e300, from_start}} {}
-  const Vector& value(double t) const;
+  const Vector& value(double t) const { return value(t, t); }
+  /// As known at `now` <= t: changes are commands, as steps of a reference are.
+  const Vector& value(double t, double now) const;
   void change(double at, const Vector& weight);
 
   /// Keys: weight, and weight_changes: a list of {at_s, weight} in order of time.

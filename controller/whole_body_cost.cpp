@@ -10,18 +10,19 @@
 namespace ballbot {
 namespace {
 
-/// Sum of barrier values; the logarithms of what is feasible are taken together, as one.
+/// Sum of barrier values, each zero at its reference; the logarithms of what is feasible are taken
+/// together, as one.
 class BarrierSum {
  public:
   explicit BarrierSum(const RelaxedBarrier& barrier) : barrier_(barrier) {}
-  RelaxedBarrier::Derivatives add(double h, CostTerms& terms) {
+  RelaxedBarrier::Derivatives add(double h, double reference, CostTerms& terms) {
     if (h > barrier_.delta) {
-      product_ *= h;
+      product_ *= h / reference;
       return {0, -barrier_.mu / h, barrier_.mu / (h * h)};
     }
     terms.violation = std::max(terms.violation, -h);
     const RelaxedBarrier::Derivatives d = barrier_.derivatives(h);
-    relaxed_ += d.value;
+    relaxed_ += d.value + barrier_.mu * std::log(reference);
     return d;
   }
   double value() const { return relaxed_ - barrier_.mu * std::log(product_); }
@@ -31,13 +32,14 @@ class BarrierSum {
   double product_ = 1, relaxed_ = 0;
 };
 
-/// Both bounds of one coordinate; first and second derivative of the sum.
+/// Both bounds of one coordinate, zero in the middle; first and second derivative of the sum.
 struct TwoSided {
   double first, second;
 };
 TwoSided addTwoSided(BarrierSum& sum, double above_lower, double below_upper, CostTerms& terms) {
-  const RelaxedBarrier::Derivatives low = sum.add(above_lower, terms);
-  const RelaxedBarrier::Derivatives high = sum.add(below_upper, terms);
+  const double reference = 0.5 * (above_lower + below_upper);
+  const RelaxedBarrier::Derivatives low = sum.add(above_lower, reference, terms);
+  const RelaxedBarrier::Derivatives high = sum.add(below_upper, reference, terms);
   return {low.first - high.first, low.second + high.second};
 }
 
@@ -188,7 +190,8 @@ void WholeBodyCost::stateCost(const StateVector& x, const Tasks& tasks, double s
   const double cos_pitch = std::cos(x[kPitch]), cos_roll = std::cos(x[kRoll]);
   const double cos_tilt = cos_pitch * cos_roll;
   BarrierSum tilt(constraints_.tilt);
-  const auto d = tilt.add((cos_tilt - cos_tilt_limit_) / sin_tilt_limit_, terms);
+  const auto d = tilt.add((cos_tilt - cos_tilt_limit_) / sin_tilt_limit_,
+                          (1 - cos_tilt_limit_) / sin_tilt_limit_, terms);
   terms.value[kTiltLimitCost] += share * tilt.value();
   if constexpr (kExpand) {
     const double h_pitch = -std::sin(x[kPitch]) * cos_roll / sin_tilt_limit_;
@@ -233,7 +236,7 @@ void WholeBodyCost::inputCost(const JointVector& tau, const Vector3& lambda_C, c
   const double epsilon = constraints_.cone_epsilon, lx = lambda_C.x(), ly = lambda_C.y();
   const double n = std::sqrt(lx * lx + ly * ly + epsilon * epsilon);
   BarrierSum cone(constraints_.cone);
-  const auto d = cone.add(constraints_.friction * lambda_C.z() - n, terms);
+  const auto d = cone.add(constraints_.friction * lambda_C.z() - n, 1, terms);
   terms.value[kFrictionConeCost] += share * cone.value();
   if constexpr (kExpand) {
     const Vector3 h_gradient(-lx / n, -ly / n, constraints_.friction);
@@ -261,6 +264,31 @@ void WholeBodyCost::addState(const StateVector& x, const Tasks& tasks, double sh
 void WholeBodyCost::expandState(const StateVector& x, const Tasks& tasks, double share,
                                 CostTerms& terms, StateExpansion out) const {
   stateCost<true>(x, tasks, share, terms, &out);
+}
+
+void WholeBodyCost::addFinal(const StateVector& x, const Tasks& tasks, double share, double scale,
+                             CostTerms& terms) const {
+  CostTerms rate;
+  stateCost<false>(x, tasks, 1, rate, nullptr);
+  for (int i = 0; i < kCostTermCount; ++i) terms.value[i] += share * rate.value[i];
+  terms.value[kTerminalCost] += scale * rate.total();
+  terms.violation = std::max(terms.violation, rate.violation);
+}
+
+void WholeBodyCost::expandFinal(const StateVector& x, const Tasks& tasks, double share,
+                                double scale, CostTerms& terms,
+                                ValueFunction<kMpcStateDim>& value) const {
+  constexpr int kX = ValueFunction<kMpcStateDim>::kX;
+  std::fill(std::begin(value.S_aug), std::end(value.S_aug), 0.0);
+  CostTerms rate;
+  StateExpansion expansion{value.S_aug, kX, kMpcStateDim};
+  stateCost<true>(x, tasks, 1, rate, &expansion);
+  for (double& s : value.S_aug) s *= share + scale;
+  for (int j = 0; j < kX; ++j)
+    for (int i = j + 1; i < kX; ++i) value.S_aug[i * kX + j] = value.S_aug[j * kX + i];
+  for (int i = 0; i < kCostTermCount; ++i) terms.value[i] += share * rate.value[i];
+  terms.value[kTerminalCost] += scale * rate.total();
+  terms.violation = std::max(terms.violation, rate.violation);
 }
 
 void WholeBodyCost::addInput(const JointVector& tau, const Vector3& lambda_C, const Tasks& tasks,

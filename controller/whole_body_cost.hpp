@@ -2,6 +2,7 @@
 
 #include "controller/constraints.hpp"
 #include "controller/cost_terms.hpp"
+#include "controller/riccati.hpp"
 #include "controller/tasks.hpp"
 #include "model/reduced_dynamics.hpp"
 
@@ -39,6 +40,13 @@ class WholeBodyCost {
   void addState(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms) const;
   void expandState(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms,
                    StateExpansion out) const;
+
+  /// The end of a horizon: `share` of the state's cost rate as before, and `scale` of it [s] as the
+  /// cost of what comes after. The expansion overwrites `value`, whole and symmetric.
+  void addFinal(const StateVector& x, const Tasks& tasks, double share, double scale,
+                CostTerms& terms) const;
+  void expandFinal(const StateVector& x, const Tasks& tasks, double share, double scale,
+                   CostTerms& terms, ValueFunction<kMpcStateDim>& value) const;
 
   /// All of the input cost but the wheel torques' own squares, which frequency shaping takes over.
   /// Without contact the force costs |lambda|^2 / 2 and moves nothing: it stays zero.

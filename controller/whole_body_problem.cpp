@@ -207,28 +207,15 @@ void WholeBodyProblem<NU>::approximateCost(int k, const X& x, const U& u, CostTe
 
 template <int NU>
 void WholeBodyProblem<NU>::addFinalCost(const X& x, CostTerms& terms) const noexcept {
-  CostTerms rate;
-  cost_.addState(x.template head<kStateDim>(), tasks_.back(), 1, rate);
-  for (int i = 0; i < kCostTermCount; ++i) terms.value[i] += state_share_.back() * rate.value[i];
-  terms.value[kTerminalCost] += terminal_.state_scale * rate.total();
-  terms.violation = std::max(terms.violation, rate.violation);
+  cost_.addFinal(x.template head<kStateDim>(), tasks_.back(), state_share_.back(),
+                 terminal_.state_scale, terms);
 }
 
 template <int NU>
 void WholeBodyProblem<NU>::approximateFinalCost(const X& x, CostTerms& terms,
                                                 ValueFunction<kMpcStateDim>& value) const noexcept {
-  constexpr int kX = ValueFunction<kMpcStateDim>::kX;
-  std::fill(std::begin(value.S_aug), std::end(value.S_aug), 0.0);
-  CostTerms rate;
-  cost_.expandState(x.template head<kStateDim>(), tasks_.back(), 1, rate,
-                    {value.S_aug, kX, kMpcStateDim});
-  const double share = state_share_.back();
-  for (double& s : value.S_aug) s *= share + terminal_.state_scale;
-  for (int j = 0; j < kX; ++j)
-    for (int i = j + 1; i < kX; ++i) value.S_aug[i * kX + j] = value.S_aug[j * kX + i];
-  for (int i = 0; i < kCostTermCount; ++i) terms.value[i] += share * rate.value[i];
-  terms.value[kTerminalCost] += terminal_.state_scale * rate.total();
-  terms.violation = std::max(terms.violation, rate.violation);
+  cost_.expandFinal(x.template head<kStateDim>(), tasks_.back(), state_share_.back(),
+                    terminal_.state_scale, terms, value);
 }
 
 template class WholeBodyProblem<6>;

@@ -35,19 +35,30 @@ using EndEffectorLinearization = ReducedDynamics::EndEffectorLinearization;
 
 /// dnu/dt and its derivatives: M^-1 times those of the residual.
 void linearizeDynamics(const DynamicsConstants& constants, const DynamicsLanes& lanes,
-                       const JointVector* tau, const Vector3* lambda_W, Linearization* out) {
+                       const JointVector* tau, const Vector3* lambda_W, const Vector3* moment_W,
+                       Linearization* out) {
   using Residual = ResidualDerivatives<Pack>;
   const DynamicsLanes::Pass& pass = lanes.pass;
   const auto torque = lanes.gathered<0, kJointCount>(tau);
   const auto force = lanes.gathered<0, 3>(lambda_W);
   const Ldlt<Pack, kVelocityDim> mass(pass.massMatrix());
-  DynamicsLanes::Pass::Vec8 acceleration =
-      pass.appliedForce(torque, force) - pass.nonlinearEffects();
+  DynamicsLanes::Pass::Vec8 acceleration = pass.appliedForce(torque, force);
+  if (moment_W) pass.addMoment(lanes.gathered<0, 3>(moment_W), acceleration);
+  acceleration -= pass.nonlinearEffects();
   mass.solveInPlace(acceleration);
   lanes.put<kVelocityDim>(acceleration.data(), out,
                           [](Linearization& o) { return o.f.data() + kPositionDim; });
 
   Residual residual(constants, pass, acceleration, torque, force);
+  if (moment_W) {
+    residual.addMoment(lanes.gathered<0, 3>(moment_W));
+    for (int k = 0; k < 3; ++k) {
+      mass.solveInPlace(residual.by_moment.col(k));
+      lanes.put<kVelocityDim>(&residual.by_moment(0, k), out, [k](Linearization& o) {
+        return &o.df_dmoment(kPositionDim, k);
+      });
+    }
+  }
   for (int k = 0; k < Residual::kColumnCount; ++k) mass.solveInPlace(residual.columns.col(k));
   const auto column = [&](int k, auto&& address) {
     lanes.put<kVelocityDim>(&residual.columns(0, k), out, address);
@@ -110,23 +121,32 @@ ReducedDynamics::EndEffectorLinearization::EndEffectorLinearization() {
 
 void ReducedDynamics::linearize(int count, const StateVector* x, const JointVector* tau,
                                 const Vector3* lambda_W, Linearization* out,
-                                EndEffectorLinearization* end_effector) const {
+                                EndEffectorLinearization* end_effector,
+                                const Vector3* moment_W) const {
   for (int first = 0; first < count; first += Pack::kLanes) {
     const DynamicsLanes lanes(*constants_, first, count, x);
     linearizeKinematics(lanes, out);
-    linearizeDynamics(*constants_, lanes, tau, lambda_W, out);
+    linearizeDynamics(*constants_, lanes, tau, lambda_W, moment_W, out);
     if (end_effector) linearizeTip(*constants_, lanes, x, end_effector);
   }
 }
 
 void ReducedDynamics::linearize(const StateVector& x, const JointVector& tau,
-                                const Vector3& lambda_W, Linearization& out) const {
-  linearize(1, &x, &tau, &lambda_W, &out, nullptr);
+                                const Vector3& lambda_W, Linearization& out,
+                                const Vector3* moment_W) const {
+  linearize(1, &x, &tau, &lambda_W, &out, nullptr, moment_W);
 }
 
 void ReducedDynamics::linearizeEndEffector(const StateVector& x,
                                            EndEffectorLinearization& out) const {
-  linearizeTip(*constants_, DynamicsLanes(*constants_, 0, 1, &x), &x, &out);
+  linearizeEndEffector(1, &x, &out);
+}
+
+void ReducedDynamics::linearizeEndEffector(int count, const StateVector* x,
+                                           EndEffectorLinearization* out) const {
+  for (int first = 0; first < count; first += Pack::kLanes) {
+    linearizeTip(*constants_, DynamicsLanes(*constants_, first, count, x), x, out);
+  }
 }
 
 }  // namespace ballbot

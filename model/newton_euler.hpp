@@ -105,6 +105,13 @@ class NewtonEuler {
     return force;
   }
 
+  /// Adds what a moment on the end-effector does.
+  void addMoment(const Vec3& moment_W, Vec8& force) const {
+    const Vec3 moment = R_WB.transpose() * moment_W;
+    force.template segment<3>(kOmegaX) += moment;
+    for (int i = 0; i < kArmJointCount; ++i) force[kArmRate1 + i] += dot(joint[i].angular, moment);
+  }
+
   /// Rates of yaw, pitch and roll.
   Vec3 eulerRates() const {
     const Scalar yaw = (sin_roll * omega[1] + cos_roll * omega[2]) / cos_pitch;

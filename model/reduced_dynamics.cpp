@@ -45,23 +45,25 @@ VelocityVector ReducedDynamics::acceleration(const PositionVector& q, const Velo
 }
 
 StateVector ReducedDynamics::derivative(const StateVector& x, const JointVector& tau,
-                                        const Vector3& lambda_W) const {
+                                        const Vector3& lambda_W, const Vector3* moment_W) const {
   StateVector dx;
-  derivatives(1, &x, &tau, &lambda_W, &dx);
+  derivatives(1, &x, &tau, &lambda_W, &dx, moment_W);
   return dx;
 }
 
 void ReducedDynamics::derivatives(int count, const StateVector* x, const JointVector* tau,
-                                  const Vector3* lambda_W, StateVector* dx) const {
+                                  const Vector3* lambda_W, StateVector* dx,
+                                  const Vector3* moment_W) const {
   for (int first = 0; first < count; first += Pack::kLanes) {
     const DynamicsLanes lanes(*constants_, first, count, x);
     const DynamicsLanes::Pass& pass = lanes.pass;
     Eigen::Matrix<Pack, kStateDim, 1> rate;
     rate.head<kPositionDim>() = lanes.nu;
     rate.segment<3>(kYaw) = pass.eulerRates();
-    rate.tail<kVelocityDim>() =
-        pass.appliedForce(lanes.gathered<0, kJointCount>(tau), lanes.gathered<0, 3>(lambda_W)) -
-        pass.nonlinearEffects();
+    DynamicsLanes::Pass::Vec8 force =
+        pass.appliedForce(lanes.gathered<0, kJointCount>(tau), lanes.gathered<0, 3>(lambda_W));
+    if (moment_W) pass.addMoment(lanes.gathered<0, 3>(moment_W), force);
+    rate.tail<kVelocityDim>() = force - pass.nonlinearEffects();
     Ldlt<Pack, kVelocityDim>(pass.massMatrix()).solveInPlace(rate.tail<kVelocityDim>());
     lanes.put<kStateDim>(rate.data(), dx, [](StateVector& out) { return out.data(); });
   }

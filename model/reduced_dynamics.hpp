@@ -19,10 +19,11 @@ using ForceJacobian = Eigen::Matrix<double, kStateDim, 3>;
 /// The robot's 8 degrees of freedom as rigid bodies on a ball that rolls without slip and without
 /// spin about the vertical:
 ///
-///   M(q) dnu/dt + h(q, nu) = S(q)^T tau + J_E(q)^T lambda_W
+///   M(q) dnu/dt + h(q, nu) = S(q)^T tau + J_E(q)^T (lambda_W, moment_W)
 ///
-/// tau: actuator torques, wheels then arm [N m]; lambda_W: force of the environment on the
-/// end-effector, at E, in W [N]. From a Newton-Euler pass (Minniti et al. 2019, eq. 1-3).
+/// tau: actuator torques, wheels then arm [N m]; lambda_W and moment_W: force and, where there is
+/// one, moment of the environment on the end-effector, at E, in W [N, N m]. From a Newton-Euler
+/// pass (Minniti et al. 2019, eq. 1-3).
 /// Const and free of allocation: may run in the control step.
 class ReducedDynamics {
  public:
@@ -39,8 +40,8 @@ class ReducedDynamics {
   VelocityVector acceleration(const PositionVector& q, const VelocityVector& nu,
                               const JointVector& tau, const Vector3& lambda_W) const;
   /// dx/dt, x = (q, nu).
-  StateVector derivative(const StateVector& x, const JointVector& tau,
-                         const Vector3& lambda_W) const;
+  StateVector derivative(const StateVector& x, const JointVector& tau, const Vector3& lambda_W,
+                         const Vector3* moment_W = nullptr) const;
 
   /// dx/dt with its partial derivatives. The constructor sets the entries that are the same at
   /// every state: zeros, and the ones of dq/dnu. They are never written again.
@@ -50,9 +51,10 @@ class ReducedDynamics {
     StateJacobian df_dx = StateJacobian::Zero();
     TorqueJacobian df_dtau = TorqueJacobian::Zero();
     ForceJacobian df_dlambda = ForceJacobian::Zero();
+    ForceJacobian df_dmoment = ForceJacobian::Zero();  ///< written where a moment is given
   };
   void linearize(const StateVector& x, const JointVector& tau, const Vector3& lambda_W,
-                 Linearization& out) const;
+                 Linearization& out, const Vector3* moment_W = nullptr) const;
 
   struct EndEffector {
     Vector3 p_WE;    ///< position in W [m]
@@ -79,11 +81,14 @@ class ReducedDynamics {
 
   /// The same for `count` states: arrays in, arrays out. Four states at once take little longer
   /// than one, and each gets the same bits as it would alone.
+  /// @param moment_W  null where there are none
   void derivatives(int count, const StateVector* x, const JointVector* tau, const Vector3* lambda_W,
-                   StateVector* dx) const;
+                   StateVector* dx, const Vector3* moment_W = nullptr) const;
   /// @param end_effector  null where it is not wanted
   void linearize(int count, const StateVector* x, const JointVector* tau, const Vector3* lambda_W,
-                 Linearization* out, EndEffectorLinearization* end_effector) const;
+                 Linearization* out, EndEffectorLinearization* end_effector,
+                 const Vector3* moment_W = nullptr) const;
+  void linearizeEndEffector(int count, const StateVector* x, EndEffectorLinearization* out) const;
 
   /// Kinetic plus potential energy [J], zero potential at z = 0.
   double energy(const StateVector& x) const;

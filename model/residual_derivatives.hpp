@@ -6,7 +6,7 @@ namespace ballbot {
 
 /// Derivatives of the dynamics' residual at one state,
 ///
-///   r(q, nu, dnu) = M dnu + h - S^T tau - J_E^T lambda,
+///   r(q, nu, dnu) = M dnu + h - S^T tau - J_E^T (lambda, moment),
 ///
 /// with dnu held, so that d(dnu) = -M^-1 dr. They are those of the Newton-Euler equations in closed
 /// form (Singh, Russell, Wensing 2022; see spatial.hpp), for which the composite quantities of the
@@ -32,6 +32,7 @@ class ResidualDerivatives {
     kColumnCount = kByForce + 3
   };
   Eigen::Matrix<Scalar, kVelocityDim, kColumnCount> columns;  ///< of -dr
+  Eigen::Matrix<Scalar, kVelocityDim, 3> by_moment;           ///< set by addMoment()
 
   ResidualDerivatives(const DynamicsConstants& constants, const Pass& pass,
                       const Vec8& acceleration, const Vec6& tau, const Vec3& lambda_W)
@@ -46,6 +47,9 @@ class ResidualDerivatives {
     byBaseVelocity();
     byInputs();
   }
+
+  /// The part of a moment on the end-effector: without it there is none.
+  [[gnu::flatten]] void addMoment(const Vec3& moment_W);
 
  private:
   /// skew(a) M and M skew(a).
@@ -74,6 +78,12 @@ class ResidualDerivatives {
   void setBaseRows(int column, const Wrench<Scalar>& w) {
     for (int k = 0; k < 2; ++k) columns(kBallVx + k, column) = -dot(p_.R_WB.row(k), w.force);
     columns.template block<3, 1>(kOmegaX, column) = -w.moment;
+  }
+
+  /// A row by delta as a row by yaw, pitch and roll.
+  Vec3 byEuler(const Vec3& by_delta) const {
+    const Vec3 yaw(-p_.sin_pitch, p_.cos_pitch * p_.sin_roll, p_.cos_pitch * p_.cos_roll);
+    return {dot(by_delta, yaw), p_.cos_roll * by_delta[1] - p_.sin_roll * by_delta[2], by_delta[0]};
   }
 
   [[gnu::flatten]] void byArm(const Vec8& acceleration);
@@ -171,12 +181,8 @@ void ResidualDerivatives<Scalar>::byOrientation(const Vec8& acceleration, const 
                 rho_ * (axis.transpose() * spin_torque);
   }
 
-  // delta = E (dyaw, dpitch, droll).
-  const Vec3 yaw(-p_.sin_pitch, p_.cos_pitch * p_.sin_roll, p_.cos_pitch * p_.cos_roll);
   const auto setRow = [&](int row, const Vec3& by_delta) {
-    columns(row, kByEuler + 0) = -dot(by_delta, yaw);
-    columns(row, kByEuler + 1) = p_.sin_roll * by_delta[2] - p_.cos_roll * by_delta[1];
-    columns(row, kByEuler + 2) = -by_delta[0];
+    columns.template block<1, 3>(row, kByEuler) = -byEuler(by_delta).transpose();
   };
   for (int k = 0; k < 2; ++k) setRow(kBallVx + k, dp.row(k).transpose());
   for (int k = 0; k < 3; ++k) setRow(kOmegaX + k, dn.row(k).transpose());
@@ -235,6 +241,33 @@ void ResidualDerivatives<Scalar>::byInputs() {
     columns.template block<3, 1>(kOmegaX, kByForce + k) = cross(p_.p_KE, direction);
     for (int i = 0; i < kArmJointCount; ++i) {
       columns(kArmRate1 + i, kByForce + k) = dot(tip_[i], direction);
+    }
+  }
+}
+
+template <typename Scalar>
+void ResidualDerivatives<Scalar>::addMoment(const Vec3& moment_W) {
+  const Vec3 moment = p_.R_WB.transpose() * moment_W;  // changes by moment x delta
+  const Vec3 skew_rows[3] = {Vec3(Scalar(0), -moment[2], moment[1]),
+                             Vec3(moment[2], Scalar(0), -moment[0]),
+                             Vec3(-moment[1], moment[0], Scalar(0))};
+  for (int k = 0; k < 3; ++k) {
+    columns.template block<1, 3>(kOmegaX + k, kByEuler) += byEuler(skew_rows[k]).transpose();
+  }
+  for (int i = 0; i < kArmJointCount; ++i) {
+    const Vec3& axis = p_.joint[i].angular;
+    const Vec3 turned = cross(axis, moment);  // of the axis by a joint before it, and by delta
+    columns.template block<1, 3>(kArmRate1 + i, kByEuler) += byEuler(turned).transpose();
+    for (int j = 0; j < i; ++j) {
+      columns(kArmRate1 + i, kByArm + j) += dot(p_.joint[j].angular, turned);
+    }
+  }
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 direction = p_.R_WB.row(k).transpose();
+    for (int j = 0; j < 2; ++j) by_moment(kBallVx + j, k) = Scalar(0);
+    by_moment.template block<3, 1>(kOmegaX, k) = direction;
+    for (int i = 0; i < kArmJointCount; ++i) {
+      by_moment(kArmRate1 + i, k) = dot(p_.joint[i].angular, direction);
     }
   }
 }
