@@ -118,6 +118,11 @@ class Multibody {
   virtual BaseAcceleration baseAcceleration(const double* ydot) const = 0;
   virtual JointAcceleration jointAcceleration(const double* ydot) const = 0;
 
+  /// The torque with which each wheel can turn against the ball until it slips on it; infinite, as
+  /// it is at first, never slips. Only a structure whose wheels are bodies can slip.
+  /// @throw InputError if a finite limit is asked of one that cannot.
+  virtual void limitTraction(const Vector3& wheel_torque) = 0;
+
   /// Removes from y what integration let it drift off the constraints: quaternion length and, in
   /// the full structure, wheel rates that are not those of rolling.
   virtual void project(double* y) const = 0;

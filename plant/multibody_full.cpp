@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -136,10 +138,15 @@ class FullMultibody final : public Multibody {
   void project(double* y) const override {
     tree_.normalizeQuaternion(y);
     double* u = y + nq_;
-    Eigen::Map<Vector3>(u + wheel_u_) =
+    const Vector3 rates =
         rolling_.rates(tree_.rotationFromQ(y), {u[0], u[1], 0},
                        Eigen::Map<const Vector3>(u + kOmegaU), options_.ball_spin ? u[kSpinU] : 0);
+    for (int i = 0; i < kWheelCount; ++i) {
+      if (grips(i)) u[wheel_u_ + i] = rates[i];
+    }
   }
+
+  void limitTraction(const Vector3& wheel_torque) override { traction_ = wheel_torque; }
 
   Vector3 wheelSlip() const override {
     const BaseMotion& m = tree_.base();
@@ -209,12 +216,51 @@ class FullMultibody final : public Multibody {
     }
     const Vector3 bias = rolling_.bias(tree_.base());
     SmallVector<kWheelCount> multipliers;
-    for (int i = 0; i < kWheelCount; ++i) multipliers[i] = bias[i] - rowTimes(i, udot);
-    solveCholesky<kWheelCount>(A, multipliers, kWheelCount);
+    if (grips(0) && grips(1) && grips(2)) {
+      for (int i = 0; i < kWheelCount; ++i) multipliers[i] = bias[i] - rowTimes(i, udot);
+      solveCholesky<kWheelCount>(A, multipliers, kWheelCount);
+    } else {
+      const double* u = &tree_.state.getU()[0];
+      for (int i = 0; i < kWheelCount; ++i) {
+        multipliers[i] = grips(i) ? bias[i] - rowTimes(i, udot) : creepTorque(i, rowTimes(i, u));
+      }
+      solveForGripping(A, multipliers);
+    }
     for (int k = 0; k < nu_; ++k) {
       udot[k] += response[0][k] * multipliers[0] + response[1][k] * multipliers[1] +
                  response[2][k] * multipliers[2];
     }
+  }
+
+  bool grips(int wheel) const { return !std::isfinite(traction_[wheel]); }
+
+  /// Friction of a slipping wheel, on its own axis [N m]: at its limit but for a creep about zero
+  /// slip, wide enough for the integration step whatever the limit [rad/s].
+  double creepTorque(int wheel, double slip_rate) const {
+    return -traction_[wheel] * std::tanh(slip_rate / (0.5 + traction_[wheel]));
+  }
+
+  /// Multipliers of the wheels that grip, from A and their right-hand sides in `multipliers`, where
+  /// those of the others stand already.
+  void solveForGripping(const SmallMatrix<kWheelCount>& A,
+                        SmallVector<kWheelCount>& multipliers) const {
+    SmallMatrix<kWheelCount> A_grip{};
+    SmallVector<kWheelCount> m{};
+    std::array<int, kWheelCount> gripping{};
+    int n = 0;
+    for (int i = 0; i < kWheelCount; ++i) {
+      if (!grips(i)) continue;
+      m[n] = multipliers[i];
+      for (int j = 0; j < kWheelCount; ++j) {
+        if (!grips(j)) m[n] -= A[std::max(i, j)][std::min(i, j)] * multipliers[j];
+      }
+      gripping[n++] = i;
+    }
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j <= i; ++j) A_grip[i][j] = A[gripping[i]][gripping[j]];
+    }
+    solveCholesky<kWheelCount>(A_grip, m, n);
+    for (int i = 0; i < n; ++i) multipliers[gripping[i]] = m[i];
   }
 
   RobotParameters robot_;
@@ -222,6 +268,7 @@ class FullMultibody final : public Multibody {
   RobotTree tree_;
   WheelRolling rolling_;
   int nq_ = 0, nu_ = 0, wheel_q_ = 0, wheel_u_ = 0;
+  Vector3 traction_ = Vector3::Constant(std::numeric_limits<double>::infinity());  ///< [N m]
   SimTK::Vector udot_, constraint_force_;
   std::array<SimTK::Vector, kWheelCount> response_;
   SimTK::Vector_<SimTK::SpatialVec> body_acceleration_;

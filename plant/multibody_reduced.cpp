@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Geometry>
 
+#include "core/error.hpp"
 #include "plant/multibody_structures.hpp"
 #include "plant/robot_tree.hpp"
 #include "plant/small_cholesky.hpp"
@@ -156,6 +158,12 @@ class ReducedMultibody final : public Multibody {
     return a;
   }
 
+  void limitTraction(const Vector3& wheel_torque) override {
+    if (std::isfinite(wheel_torque.minCoeff())) {
+      throw InputError(
+          "plant: wheels that are not bodies cannot slip; use plant.fidelity.multibody: full");
+    }
+  }
   void project(double* y) const override { tree_.normalizeQuaternion(y); }
 
   Vector3 wheelSlip() const override { return Vector3::Zero(); }

@@ -58,6 +58,7 @@ class Plant::Impl {
         form_(stateForm(config)),
         ideal_actuators_(config.fidelity.actuators == ActuatorLevel::kIdeal),
         environment_(config.pushes),
+        faults_(config.faults, config.sensors, config.seed),
         dynamics_(config),
         rk4_(dynamics_.dim()),
         state_(config, dynamics_.dim()) {
@@ -75,6 +76,8 @@ class Plant::Impl {
     s.yaw = config_.initial.pose.yaw;
     const BaseMotion base = dynamics_.multibody().base();
     s.imu.sample(start, dynamics_.specificForce(base, BaseAcceleration{}), Vector3::Zero());
+    faults_.reset();
+    meetFaults(dynamics_.multibody().joints());
     observe();
   }
 
@@ -99,6 +102,7 @@ class Plant::Impl {
     out.putBlob(StateBlob(form_.begin(), form_.end()));
     StateSaver saver(out);
     visitState(state_, dynamics_.actuators(), saver);
+    FaultInjector::visitState(faults_, saver);
     return out.seal("plant", kBlobVersion);
   }
 
@@ -114,7 +118,10 @@ class Plant::Impl {
     PlantDynamics::Actuators actuators = dynamics_.actuators();
     StateLoader loader(in);
     visitState(restored, actuators, loader);
+    FaultInjector faults = faults_;
+    FaultInjector::visitState(faults, loader);
     in.finish();
+    faults_ = std::move(faults);
     state_ = std::move(restored);
     dynamics_.actuators() = std::move(actuators);
     dynamics_.multibody().realize(state_.y.data());
@@ -124,6 +131,7 @@ class Plant::Impl {
   std::uint64_t digest() const {
     hasher_.clear();
     visitState(state_, dynamics_.actuators(), hasher_);
+    FaultInjector::visitState(faults_, hasher_);
     return hasher_.hash();
   }
 
@@ -170,7 +178,7 @@ class Plant::Impl {
     const SimTime now = state_.now;
     SimTime next = std::min({end, nextMultiple(now, config_.drive_period),
                              nextMultiple(now, config_.sensors.imu.period),
-                             nextMultiple(now, config_.substep), environment_.nextChange(now)});
+                             nextMultiple(now, config_.substep), environment_.nextChange(now), faults_.nextChange(now)});
     if (config_.initial.release > now) next = std::min(next, config_.initial.release);
     return next;
   }
@@ -186,6 +194,7 @@ class Plant::Impl {
     dynamics_.hold(held);
     dynamics_.forces().clear();
     environment_.addForces(s.now, dynamics_.forces());
+    if (faults_.anySlip()) dynamics_.multibody().limitTraction(faults_.traction(s.now));
 
     const SimTime next = nextEvent(end);
     rk4_.step(dynamics_, toSeconds(s.now - s.last_tick), toSeconds(next - s.now), s.y.data());
@@ -216,6 +225,12 @@ class Plant::Impl {
       rate.setZero();
     }
     if (isMultiple(s.now, config_.drive_period)) s.drives.sense(robot.joints());
+    meetFaults(robot.joints());
+  }
+
+  void meetFaults(const JointMotion& joints) {
+    if (!faults_.any()) return;
+    faults_.arrive(state_.now, state_.drives.encoders().jointAngle(joints), state_.imu.last());
   }
 
   /// Fills the frames from the realized state.
@@ -245,6 +260,7 @@ class Plant::Impl {
     f.imu_time = imu.time;
     f.accel_B = imu.accel_B;
     f.gyro_WB_B = imu.gyro_WB_B;
+    if (faults_.any()) faults_.apply(state_.now, f);
   }
 
   void observeTruth(const JointMotion& joints, const JointVector& torque) {
@@ -270,6 +286,7 @@ class Plant::Impl {
   std::string form_;
   bool ideal_actuators_;
   Environment environment_;
+  FaultInjector faults_;
   PlantDynamics dynamics_;
   RungeKutta4 rk4_;
   State state_;

@@ -47,6 +47,14 @@ void readPlantSection(ConfigReader in, PlantConfig& c) {
   c.leak_compensation = in.booleanOr("leak_compensation", c.leak_compensation);
   const auto offset = in.numbersOr<3>("base_com_offset_m", {0, 0, 0}, {-0.1, 0.1});
   c.robot.base.p_LLcm_L += Vector3(offset[0], offset[1], offset[2]);
+  c.faults = readFaults(in);
+  for (const Fault& fault : c.faults) {
+    if (fault.kind == Fault::Kind::kWheelSlip && c.fidelity.multibody != MultibodyStructure::kFull) {
+      throw InputError(fmt::format("{} hold a wheel_slip, for which wheels must be bodies: set "
+                                   "fidelity.multibody to full",
+                                   in.at("faults")));
+    }
+  }
   in.finish();
 }
 

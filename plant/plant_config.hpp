@@ -6,6 +6,7 @@
 #include "model/robot_parameters.hpp"
 #include "model/robot_reader.hpp"
 #include "plant/environment.hpp"
+#include "plant/faults.hpp"
 #include "plant/multibody.hpp"
 #include "plant/sensors.hpp"
 
@@ -57,6 +58,7 @@ struct PlantConfig {
   bool leak_compensation = false;     ///< of the drives, docs/theory/actuator.md
   InitialCondition initial;
   std::vector<Push> pushes;
+  std::vector<Fault> faults;
   std::uint64_t seed = 1;
 };
 

@@ -1,0 +1,185 @@
+#include "plant/faults.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/config_reader.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr const char* kJointNames[] = {"wheel_1", "wheel_2", "wheel_3", "arm_1", "arm_2", "arm_3"};
+
+int readJoint(ConfigReader& in, const char* key, bool wheels_only) {
+  if (wheels_only) return in.choice<int>(key, {{"wheel_1", 0}, {"wheel_2", 1}, {"wheel_3", 2}});
+  return in.choice<int>(key, {{"wheel_1", 0},
+                              {"wheel_2", 1},
+                              {"wheel_3", 2},
+                              {"arm_1", 3},
+                              {"arm_2", 4},
+                              {"arm_3", 5}});
+}
+
+void readSpikes(ConfigReader& in, Fault& f) {
+  f.signal = in.choice<Fault::Signal>("signal", {{"gyro", Fault::Signal::kGyro},
+                                                 {"accel", Fault::Signal::kAccel},
+                                                 {"joint_angle", Fault::Signal::kJoint}});
+  if (f.signal == Fault::Signal::kJoint) f.joint = readJoint(in, "joint", false);
+  f.size_sigma = in.numberOr("size_sigma", f.size_sigma, {0, 1e6});
+  f.share = in.numberOr("share", f.share, {0, 1});
+}
+
+Fault readFault(ConfigReader& in) {
+  Fault f;
+  f.kind = in.choice<Fault::Kind>("kind", {{"imu_gap", Fault::Kind::kImuGap},
+                                           {"encoder_stuck", Fault::Kind::kEncoderStuck},
+                                           {"spikes", Fault::Kind::kSpikes},
+                                           {"wheel_slip", Fault::Kind::kWheelSlip}});
+  f.start = kSimStart + in.duration("start_s", {0, 1e6});
+  f.duration = in.duration("duration_s", {kTiny, 1e6});
+  switch (f.kind) {
+    case Fault::Kind::kImuGap: break;
+    case Fault::Kind::kEncoderStuck: f.joint = readJoint(in, "joint", false); break;
+    case Fault::Kind::kSpikes: readSpikes(in, f); break;
+    case Fault::Kind::kWheelSlip:
+      f.joint = readJoint(in, "joint", true);
+      f.traction_torque = in.numberOr("traction_Nm", f.traction_torque, {0, 10});
+      break;
+  }
+  in.finish();
+  return f;
+}
+
+}  // namespace
+
+std::string toText(const Fault& f) {
+  switch (f.kind) {
+    case Fault::Kind::kImuGap: return "imu_gap";
+    case Fault::Kind::kEncoderStuck: return fmt::format("encoder_stuck {}", kJointNames[f.joint]);
+    case Fault::Kind::kWheelSlip: return fmt::format("wheel_slip {}", kJointNames[f.joint]);
+    case Fault::Kind::kSpikes: break;
+  }
+  if (f.signal == Fault::Signal::kJoint) return fmt::format("spikes {}", kJointNames[f.joint]);
+  return f.signal == Fault::Signal::kGyro ? "spikes gyro" : "spikes accel";
+}
+
+std::vector<Fault> readFaults(ConfigReader& plant) {
+  std::vector<Fault> faults;
+  if (!plant.has("faults")) return faults;
+  for (ConfigReader& in : plant.list("faults")) faults.push_back(readFault(in));
+  return faults;
+}
+
+std::vector<Fault> scheduledFaults(const ConfigNode& scenario) {
+  const ConfigNode* plant = scenario.find("plant");
+  if (!plant) return {};
+  ConfigReader in(*plant, "plant");
+  return readFaults(in);
+}
+
+FaultInjector::FaultInjector(std::vector<Fault> faults, const SensorParameters& sensors,
+                             std::uint64_t seed)
+    : faults_(std::move(faults)),
+      gyro_sigma_(sensors.imu.gyro_noise / std::sqrt(toSeconds(sensors.imu.period))),
+      accel_sigma_(sensors.imu.accel_noise / std::sqrt(toSeconds(sensors.imu.period))),
+      joint_sigma_(sensors.encoders.joint_resolution / std::sqrt(12.0)) {
+  for (std::size_t i = 0; i < faults_.size(); ++i) {
+    streams_.emplace_back(seed, fmt::format("fault.{}", i));
+  }
+}
+
+bool FaultInjector::anySlip() const {
+  return std::any_of(faults_.begin(), faults_.end(),
+                     [](const Fault& f) { return f.kind == Fault::Kind::kWheelSlip; });
+}
+
+SimTime FaultInjector::nextChange(SimTime now) const {
+  SimTime next = SimTime::max();
+  for (const Fault& f : faults_) {
+    if (f.start > now) next = std::min(next, f.start);
+    if (f.end() > now) next = std::min(next, f.end());
+  }
+  return next;
+}
+
+Vector3 FaultInjector::traction(SimTime now) const {
+  Vector3 out = Vector3::Constant(std::numeric_limits<double>::infinity());
+  for (const Fault& f : faults_) {
+    if (f.kind == Fault::Kind::kWheelSlip && f.activeAt(now)) {
+      out[f.joint] = std::min(out[f.joint], f.traction_torque);
+    }
+  }
+  return out;
+}
+
+bool FaultInjector::stuck(SimTime now, int joint) const {
+  return std::any_of(faults_.begin(), faults_.end(), [&](const Fault& f) {
+    return f.kind == Fault::Kind::kEncoderStuck && f.joint == joint && f.activeAt(now);
+  });
+}
+
+bool FaultInjector::gap(SimTime now) const {
+  return std::any_of(faults_.begin(), faults_.end(), [&](const Fault& f) {
+    return f.kind == Fault::Kind::kImuGap && f.activeAt(now);
+  });
+}
+
+void FaultInjector::reset() {
+  held_angle_.setZero();
+  held_since_.setConstant(-1);
+  delivered_ = Imu::Sample{};
+}
+
+void FaultInjector::arrive(SimTime now, const JointVector& joint_angle, const Imu::Sample& imu) {
+  if (!gap(imu.time)) delivered_ = imu;
+  for (int i = 0; i < kJointCount; ++i) {
+    if (!stuck(now, i)) {
+      held_since_[i] = -1;
+    } else if (held_since_[i] < 0) {
+      held_since_[i] = toSeconds(now);
+      held_angle_[i] = joint_angle[i];
+    }
+  }
+}
+
+void FaultInjector::apply(SimTime now, SensorFrame& frame) const {
+  frame.imu_count = delivered_.count;
+  frame.imu_time = delivered_.time;
+  frame.accel_B = delivered_.accel_B;
+  frame.gyro_WB_B = delivered_.gyro_WB_B;
+  for (int i = 0; i < kJointCount; ++i) {
+    if (held_since_[i] < 0) continue;
+    frame.joint_angle[i] = held_angle_[i];
+    frame.joint_velocity[i] = 0;
+  }
+  for (std::size_t k = 0; k < faults_.size(); ++k) {
+    const Fault& f = faults_[k];
+    if (f.kind != Fault::Kind::kSpikes) continue;
+    if (f.signal == Fault::Signal::kJoint) {
+      if (f.activeAt(now)) frame.joint_angle[f.joint] += jointSpike(streams_[k], f, now);
+    } else if (f.activeAt(frame.imu_time)) {
+      Vector3& sample = f.signal == Fault::Signal::kGyro ? frame.gyro_WB_B : frame.accel_B;
+      sample += imuSpike(streams_[k], f, frame.imu_count);
+    }
+  }
+}
+
+double FaultInjector::jointSpike(const RandomStream& stream, const Fault& f, SimTime now) const {
+  const auto u = stream.uniforms(static_cast<std::uint64_t>(toNs(now)));
+  if (u[0] >= f.share) return 0;
+  return (u[1] < 0.5 ? -1 : 1) * f.size_sigma * joint_sigma_;
+}
+
+Vector3 FaultInjector::imuSpike(const RandomStream& stream, const Fault& f,
+                                std::int64_t count) const {
+  const auto index = static_cast<std::uint64_t>(count);
+  if (stream.uniforms(index)[0] >= f.share) return Vector3::Zero();
+  const auto n = stream.normals(index, 1);
+  const double sigma = f.signal == Fault::Signal::kGyro ? gyro_sigma_ : accel_sigma_;
+  return f.size_sigma * sigma * Vector3(n[0], n[1], n[2]).normalized();
+}
+
+}  // namespace ballbot
