@@ -1,0 +1,158 @@
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "experiment/loop_analysis.hpp"
+#include "experiment/text_file.hpp"
+#include "tools/bode_figure.hpp"
+#include "tools/commands.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586;
+constexpr double kDegPerRad = 57.295779513082320877;
+/// Frequencies of the printed table [Hz].
+constexpr double kTableHz[] = {0.1, 0.5, 1, 2, 5, 10, 20, 40, 60, 100, 200};
+
+struct BodeArguments {
+  std::string scenario, csv, out;
+  std::vector<std::string> overrides;
+  double at_s = 0;
+  std::optional<double> delay_ms;
+  bool json = false;
+};
+
+double decibel(std::complex<double> z) { return 20 * std::log10(std::abs(z)); }
+double degrees(std::complex<double> z) { return kDegPerRad * std::arg(z); }
+
+nlohmann::ordered_json marginsJson(const LoopMargins& m) {
+  nlohmann::ordered_json j;
+  j["stable"] = m.stable;
+  j["crossover_rad_per_s"] = m.crossover;
+  j["crossover_Hz"] = m.crossover / kTwoPi;
+  j["smallest_distance_to_instability"] = m.distance;
+  j["smallest_distance_at_Hz"] = m.distance_at / kTwoPi;
+  if (std::isfinite(m.delay_margin)) j["delay_margin_ms"] = 1e3 * m.delay_margin;
+  return j;
+}
+
+nlohmann::ordered_json toJson(const Scenario& scenario, const LoopAnalysis& a) {
+  nlohmann::ordered_json j;
+  j["scenario"] = scenario.name;
+  j["shaping"] = {{"zero_rad_per_s", a.shaping.zero},
+                  {"pole_rad_per_s", a.shaping.pole},
+                  {"weight_at_zero", a.torque_weight[0]},
+                  {"weight_at_infinity", a.torque_weight[0] * a.shaping.rho() * a.shaping.rho()}};
+  for (const int joint : {0, 3}) {
+    const char* group = joint < kWheelCount ? "wheel" : "arm";
+    const ActuatorResponse response(a.drives.actuators.of(joint), a.drives.drive_period);
+    j["actuators"][group] = {
+        {"wanted_bandwidth_Hz", a.drives.actuators.of(joint).torque_bandwidth},
+        {"blocked_bandwidth_Hz", response.bandwidth() / kTwoPi},
+        {"load_inertia_kgm2", a.inertia[joint]},
+        {"loaded_gain_at_1_Hz", std::abs(response.loaded(kTwoPi, a.inertia[joint]))}};
+  }
+  j["delay_ms"] = 1e3 * a.delay;
+  j["loop_at_the_wheels"] = {{"ideal_drives", marginsJson(a.with_ideal_drives)},
+                             {"series_elastic_drives", marginsJson(a.with_drives)}};
+  return j;
+}
+
+std::string csvText(const LoopAnalysis& a) {
+  std::string out =
+      "frequency_Hz,shaping_gain,shaping_phase_deg,wheel_weight,wheel_blocked_dB,wheel_blocked_deg,"
+      "wheel_loaded_dB,wheel_loaded_deg,arm_blocked_dB,arm_blocked_deg,loop_gain_ideal,loop_gain,"
+      "distance_ideal,distance\n";
+  for (const LoopAnalysis::Sample& s : a.samples) {
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", s.omega / kTwoPi, std::abs(s.shaping),
+                       degrees(s.shaping), s.weight, decibel(s.wheel_blocked), degrees(s.wheel_blocked),
+                       decibel(s.wheel_loaded), degrees(s.wheel_loaded), decibel(s.arm_blocked),
+                       degrees(s.arm_blocked), s.loop_gain_ideal, s.loop_gain, s.distance_ideal, s.distance);
+  }
+  return out;
+}
+
+std::string marginsRow(const char* name, const LoopMargins& m) {
+  return fmt::format("  {:<22} {:>8} {:>10.1f} {:>10.2f} {:>14.2f} {:>16}\n", name, m.stable ? "yes" : "NO",
+                     m.crossover, m.crossover / kTwoPi, m.distance,
+                     std::isfinite(m.delay_margin) ? fmt::format("{:.1f}", 1e3 * m.delay_margin) : "none");
+}
+
+std::string tableText(const Scenario& scenario, const LoopAnalysis& a) {
+  const double R = a.torque_weight[0];
+  std::string out = fmt::format(
+      "{}: wheel torques weighted {:g} up to {:.0f} rad/s, {:g} beyond {:.0f} rad/s\n\n", scenario.name, R,
+      a.shaping.zero, R * a.shaping.rho() * a.shaping.rho(), a.shaping.pole);
+  out += fmt::format("  {:>9} {:>9} {:>9} {:>16} {:>16} {:>10} {:>10} {:>8}\n", "frequency", "shaping", "weight",
+                     "drive, blocked", "drive, loaded", "loop gain", "with drives", "|1+L|");
+  out += fmt::format("  {:>9} {:>9} {:>9} {:>16} {:>16} {:>10} {:>10} {:>8}\n", "Hz", "|r|", "R |r|^2", "dB, deg",
+                     "dB, deg", "ideal", "", "");
+  std::size_t next = 0;
+  for (const double f : kTableHz) {
+    while (next + 1 < a.samples.size() && a.samples[next].omega < kTwoPi * f * (1 - 1e-9)) ++next;
+    const LoopAnalysis::Sample& s = a.samples[next];
+    out += fmt::format("  {:>9.3g} {:>9.3f} {:>9.3g} {:>8.1f} {:>7.0f} {:>8.1f} {:>7.0f} {:>10.3g} {:>10.3g} {:>8.2f}\n",
+                       s.omega / kTwoPi, std::abs(s.shaping), s.weight, decibel(s.wheel_blocked),
+                       degrees(s.wheel_blocked), decibel(s.wheel_loaded), degrees(s.wheel_loaded),
+                       s.loop_gain_ideal, s.loop_gain, s.distance);
+  }
+  const ActuatorResponse wheel(a.drives.actuators.wheel, a.drives.drive_period);
+  out += fmt::format("\n  drive bandwidth at a wheel, blocked: {:.1f} Hz (wanted {:g}); load {:.3f} kg m^2\n",
+                     wheel.bandwidth() / kTwoPi, a.drives.actuators.wheel.torque_bandwidth, a.inertia[0]);
+  out += fmt::format("  delay of the torques in the loop: {:.2f} ms\n\n", 1e3 * a.delay);
+  out += fmt::format("  {:<22} {:>8} {:>10} {:>10} {:>14} {:>16}\n", "loop at the wheels", "stable", "crossover", "",
+                     "smallest |1+L|", "delay margin, ms");
+  out += fmt::format("  {:<22} {:>8} {:>10} {:>10}\n", "", "", "rad/s", "Hz");
+  out += marginsRow("ideal drives", a.with_ideal_drives);
+  out += marginsRow("series elastic drives", a.with_drives);
+  return out;
+}
+
+ExitCode bode(const BodeArguments& arguments) {
+  const Scenario scenario = loadScenario(arguments.scenario, arguments.overrides);
+  std::optional<SimDuration> delay;
+  if (arguments.delay_ms) delay = durationFromSeconds(1e-3 * *arguments.delay_ms);
+  const LoopAnalysis analysis = analyseLoop(scenario, kSimStart + durationFromSeconds(arguments.at_s), delay);
+  if (!arguments.csv.empty()) writeTextFile(arguments.csv, csvText(analysis));
+  if (!arguments.out.empty()) writeTextFile(arguments.out, bodeFigure(scenario.name, analysis));
+  if (arguments.json) {
+    fmt::print("{}\n", toJson(scenario, analysis).dump(2));
+  } else {
+    fmt::print("{}", tableText(scenario, analysis));
+  }
+  return ExitCode::kPassed;
+}
+
+}  // namespace
+
+void addBodeCommand(CLI::App& program, ExitCode& result) {
+  CLI::App* command = program.add_subcommand(
+      "bode", "Show shaping filter, actuator response and loop crossover of a scenario's balancing law");
+  const auto a = std::make_shared<BodeArguments>();
+  command->add_option("scenario", a->scenario, "Scenario file")->required();
+  command->add_option("--set", a->overrides, "path=value: change one value of the scenario; repeatable")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option("--at-s", a->at_s, "Time at which the tasks' weights are read [s]")
+      ->check(CLI::Range(0.0, 1e5))
+      ->capture_default_str();
+  command->add_option("--delay-ms", a->delay_ms, "Delay of the torques in the loop instead of the scenario's [ms]")
+      ->check(CLI::Range(0.0, 1000.0));
+  command->add_option("--csv", a->csv, "File for all curves as CSV");
+  command->add_option("--out", a->out, "File for the picture (SVG)");
+  command->add_flag("--json", a->json, "Print the numbers as JSON");
+  command->footer(
+      "Examples:\n"
+      "  ballbot bode configs/scenarios/balance.yaml --out bode.svg\n"
+      "  ballbot bode configs/scenarios/push.yaml --set controller.mpc.wheel_shaping={actuator_bandwidth_Hz: 10}\n"
+      "docs/theory/loop.md says how the numbers are made.\n"
+      "Exit codes: 0 written, 2 bad input, 4 output could not be written.");
+  command->callback([&result, a] { result = bode(*a); });
+}
+
+}  // namespace ballbot

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "experiment/loop_analysis.hpp"
+#include "model/actuator_response.hpp"
+
+namespace ballbot {
+
+/// The curves of a loop analysis as an SVG picture: weight, drive, loop gain, distance.
+std::string bodeFigure(const std::string& scenario_name, const LoopAnalysis& analysis);
+
+}  // namespace ballbot
