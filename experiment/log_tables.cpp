@@ -94,6 +94,10 @@ std::vector<LogTable> logTables(const RunLog& log) {
       .add("quat_WE_z", "", [](const truth_frame& m) { return m.quat_WE[3]; })
       .addVector("external_force_W", "N", [](const truth_frame& m) { return m.external_force_W; })
       .addVector("contact_force_W", "N", [](const truth_frame& m) { return m.contact_force_W; })
+      .addVector("contact_point_W", "m", [](const truth_frame& m) { return m.contact_point_W; })
+      .add("contact_phase", "", [](const truth_frame& m) { return m.contact_phase; })
+      .add("door_angle", "rad", [](const truth_frame& m) { return m.door_angle; })
+      .add("door_rate", "rad/s", [](const truth_frame& m) { return m.door_rate; })
       .into(tables);
   TableBuilder<state_estimate>("estimate", log.estimates)
       .addState([](const state_estimate& m) { return m.q; }, [](const state_estimate& m) { return m.nu; })

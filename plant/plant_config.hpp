@@ -8,6 +8,7 @@
 #include "plant/environment.hpp"
 #include "plant/multibody.hpp"
 #include "plant/sensors.hpp"
+#include "plant/surroundings.hpp"
 
 namespace ballbot {
 
@@ -57,6 +58,7 @@ struct PlantConfig {
   bool leak_compensation = false;     ///< of the drives, docs/theory/actuator.md
   InitialCondition initial;
   std::vector<Push> pushes;
+  SurroundingsParameters surroundings;
   std::uint64_t seed = 1;
 };
 
