@@ -109,6 +109,7 @@ std::vector<LogTable> logTables(const RunLog& log) {
       .add("sigma_vx", "m/s", [](const state_estimate& m) { return m.sigma[5]; })
       .add("sigma_vy", "m/s", [](const state_estimate& m) { return m.sigma[6]; })
       .addVector("sigma_omega", "rad/s", [](const state_estimate& m) { return m.sigma + 7; })
+      .addVector("contact_force_W", "N", [](const state_estimate& m) { return m.contact_force_W; })
       .add("aligned", "", [](const state_estimate& m) { return m.aligned; })
       .into(tables);
   TableBuilder<actuator_command>("command", log.commands)
@@ -125,6 +126,9 @@ std::vector<LogTable> logTables(const RunLog& log) {
       .add("cost", "", [](const plan_report& m) { return m.cost; })
       .add("step_length", "", [](const plan_report& m) { return m.step_length; })
       .add("constraint_violation", "", [](const plan_report& m) { return m.constraint_violation; })
+      .add("contact_state", "", [](const plan_report& m) { return m.contact_state; })
+      .addVector("contact_asked_W", "N", [](const plan_report& m) { return m.contact_asked_W; })
+      .addVector("contact_counted_on_W", "N", [](const plan_report& m) { return m.contact_counted_on_W; })
       .into(tables);
   return tables;
 }
