@@ -21,6 +21,7 @@ class BackgroundMpcLaw final : public ControlLaw {
 
   PlanReport plan(SimTime now, const StateVector& x,
                   const JointVector& joint_angle) noexcept override;
+  void setContactForce(const Vector3& force_W) noexcept override { contact_force_W_ = force_W; }
   void activatePlan() noexcept override;
   void sample(SimTime now, PolicySample& out) const noexcept override;
   void commanded(SimTime now, SimDuration period, const JointVector& torque) noexcept override;
@@ -38,6 +39,7 @@ class BackgroundMpcLaw final : public ControlLaw {
     StateVector x = StateVector::Zero();
     Vector3 xf = Vector3::Zero();
     JointVector joint_angle = JointVector::Zero();
+    Vector3 contact_force_W = Vector3::Zero();
     PolicySample stand_in;
   };
   struct Result {
@@ -51,6 +53,7 @@ class BackgroundMpcLaw final : public ControlLaw {
   FrequencyShaping shaping_;
   LqrLaw lqr_;
   Vector3 xf_ = Vector3::Zero();
+  Vector3 contact_force_W_ = Vector3::Zero();
 
   MpcPlanner planner_;  // the solver thread's alone
   LatestValue<Request> requests_;

@@ -30,7 +30,7 @@ struct ContinuousEngine<NU>::RolloutFlow {
   static void evaluate(double t, const double* y, double* dy, void* self) {
     ContinuousEngine& e = *static_cast<ContinuousEngine*>(self);
     const Eigen::Map<const X> x(y);
-    e.schedule_->at(e.t0_ + t, e.t0_, e.tasks_);
+    e.schedule_->at(e.t0_ + t, e.t0_, e.tasks_, e.contact_);
     const U u = e.inputAt(t, x, e.alpha_);
     X dx;
     e.problem_.flow(x, u, e.tasks_, dx);
@@ -141,12 +141,12 @@ bool ContinuousEngine<NU>::rollout(const X& x0, double alpha, CostTerms& terms) 
   }
   terms = CostTerms{};
   std::copy_n(rollout_->y() + kNX, static_cast<int>(kCostTermCount), terms.value.begin());
-  schedule_->at(t0_ + knots_.back(), t0_, tasks_);
+  schedule_->at(t0_ + knots_.back(), t0_, tasks_, contact_);
   problem_.addFinalCost(rolled_x_.back(), tasks_, terms);
   // Violations are looked for where the policy has its knots.
   for (std::size_t k = 0; k < knots_.size(); ++k) {
     CostTerms rate;
-    schedule_->at(t0_ + knots_[k], t0_, tasks_);
+    schedule_->at(t0_ + knots_[k], t0_, tasks_, contact_);
     problem_.addCostRate(rolled_x_[k], rolled_u_[k], tasks_, rate);
     terms.violation = std::max(terms.violation, rate.violation);
   }
@@ -159,7 +159,7 @@ void ContinuousEngine<NU>::adoptRollout() noexcept {
     nodes_[k].x = rolled_x_[k];
     nodes_[k].u = rolled_u_[k];
     nodes_[k].step.setZero();
-    schedule_->at(t0_ + knots_[k], t0_, tasks_);
+    schedule_->at(t0_ + knots_[k], t0_, tasks_, contact_);
     problem_.flow(nodes_[k].x, nodes_[k].u, tasks_, nodes_[k].dx);
   }
 }
@@ -167,7 +167,7 @@ void ContinuousEngine<NU>::adoptRollout() noexcept {
 template <int NU>
 void ContinuousEngine<NU>::expand() noexcept {
   for (std::size_t k = 0; k < knots_.size(); ++k) {
-    schedule_->at(t0_ + knots_[k], t0_, tasks_);
+    schedule_->at(t0_ + knots_[k], t0_, tasks_, contact_);
     problem_.expand(nodes_[k].x, nodes_[k].u, tasks_, nodes_[k].dx, expansions_[k]);
   }
   problem_.expandFinalCost(nodes_.back().x, tasks_, final_value_);
@@ -252,7 +252,7 @@ SlqReport ContinuousEngine<NU>::solve(SimTime now, const MpcState& x0, const Mpc
     node.u = u.template head<NU>();
     node.K = K.template topRows<NU>();
     node.step.setZero();
-    schedule_->at(t0_ + knots_[k], t0_, tasks_);
+    schedule_->at(t0_ + knots_[k], t0_, tasks_, contact_);
     problem_.flow(node.x, node.u, tasks_, node.dx);
   }
 

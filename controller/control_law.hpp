@@ -18,6 +18,13 @@ struct PolicySample {
   JointVector joint_velocity = JointVector::Zero(); ///< [rad/s]
 };
 
+/// What a plan counted on at the end-effector, for the record.
+struct ContactReport {
+  std::int8_t state = 0;                   ///< 0 none asked, 1 approach, 2 contact, 3 lost
+  Vector3 asked_W = Vector3::Zero();       ///< force that the scenario asks for at its start [N]
+  Vector3 counted_on_W = Vector3::Zero();  ///< what was made of it: limited, dropped, added to [N]
+};
+
 /// What happened inside a plan() call, for the record.
 struct PlanReport {
   bool accepted = true;      ///< false: the previous policy stays in force
@@ -30,6 +37,7 @@ struct PlanReport {
   double predicted_decrease = 0;  ///< of the cost, by the quadratic model
   double regularisation = 0;      ///< added to the diagonal of the input Hessian
   CostTerms terms;                ///< the cost by task and barrier
+  ContactReport contact;
   /// Wall-clock time of the phases, if the law was given a clock [ns]. Not for any record that has
   /// to be the same twice.
   std::int64_t approximation_ns = 0, riccati_ns = 0, line_search_ns = 0;
@@ -43,6 +51,9 @@ class ControlLaw {
   /// Plans from the estimate `x` and the measured joint angles, both of time `now`. The plan is
   /// stamped with `now`; who calls decides from when on it may act (computation latency).
   virtual PlanReport plan(SimTime now, const StateVector& x, const JointVector& joint_angle) noexcept = 0;
+
+  /// Force of the environment on the end-effector as measured, for the next plan() [N].
+  virtual void setContactForce(const Vector3& force_W) noexcept { (void)force_W; }
 
   /// Makes the newest plan the one that sample() uses.
   virtual void activatePlan() noexcept = 0;

@@ -20,9 +20,15 @@ class MpcEngine {
   virtual SlqReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
                           MpcPolicy& out) noexcept = 0;
 
+  /// For the solves that follow.
+  void setContact(const ContactSituation& contact) noexcept { contact_ = contact; }
+
   /// What the engine carries from one solve to the next.
   virtual double shift() const noexcept = 0;
   virtual void setShift(double shift) noexcept = 0;
+
+ protected:
+  ContactSituation contact_;
 };
 
 }  // namespace ballbot

@@ -7,7 +7,7 @@ namespace ballbot {
 namespace {
 
 constexpr char kBlobKind[] = "mpc_law";
-constexpr std::uint32_t kBlobVersion = 1;
+constexpr std::uint32_t kBlobVersion = 2;
 
 }  // namespace
 
@@ -69,6 +69,7 @@ StateBlob MpcLaw::saveState() const {
   out.putDoubles(xf_.data(), xf_.size());
   out.put(planner_.shift());
   out.put(failed_plans_);
+  planner_.contact().save(out);
   out.putBlob(lqr_.saveState());
   return out.seal(kBlobKind, kBlobVersion);
 }
@@ -82,6 +83,8 @@ void MpcLaw::restoreState(const StateBlob& blob) {
   in.getDoubles(xf.data(), xf.size());
   const double shift = in.get<double>();
   const auto failed_plans = in.get<std::int64_t>();
+  ContactSupervisor supervisor = planner_.contact();
+  supervisor.restore(in);
   const StateBlob lqr = in.getBlob();
   in.finish();
   lqr_.restoreState(lqr);
@@ -90,6 +93,7 @@ void MpcLaw::restoreState(const StateBlob& blob) {
   xf_ = xf;
   planner_.setShift(shift);
   failed_plans_ = failed_plans;
+  planner_.setContact(supervisor);
 }
 
 }  // namespace ballbot

@@ -15,6 +15,9 @@ class MpcLaw final : public ControlLaw {
 
   PlanReport plan(SimTime now, const StateVector& x,
                   const JointVector& joint_angle) noexcept override;
+  void setContactForce(const Vector3& force_W) noexcept override {
+    planner_.setContactForce(force_W);
+  }
   void activatePlan() noexcept override;
   void sample(SimTime now, PolicySample& out) const noexcept override;
   void commanded(SimTime now, SimDuration period, const JointVector& torque) noexcept override;

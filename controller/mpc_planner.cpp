@@ -41,6 +41,10 @@ MpcConfig MpcConfig::read(ConfigReader& in, const RobotParameters& robot) {
   c.threads = in.integerOr("threads", c.threads, {1, 2});
   c.solver_thread = in.booleanOr("solver_thread", c.solver_thread);
   c.contact_forces = in.booleanOr("contact_forces", c.contact_forces);
+  if (in.has("contact_supervision")) {
+    ConfigReader supervision = in.child("contact_supervision");
+    c.contact_supervision = ContactSupervision::read(supervision);
+  }
   c.fallback_after = in.durationOr("fallback_after_ms", c.fallback_after, {1, 1e6});
   if (in.has("continuous")) {
     ConfigReader continuous = in.child("continuous");
@@ -74,8 +78,30 @@ std::unique_ptr<MpcEngine> makeEngine(const RobotParameters& robot, const MpcCon
 MpcPlanner::MpcPlanner(const RobotParameters& robot, const MpcConfig& config)
     : config_(config),
       dynamics_(robot),
+      supervisor_(config.contact_supervision),
       engine_(makeEngine(robot, config)),
       seed_(engine_->emptyPolicy()) {}
+
+ContactReport MpcPlanner::superviseContact(SimTime now, const StateVector& x) noexcept {
+  ContactReport report;
+  if (!config_.contact_forces) return report;
+  const TaskSchedule& schedule = *config_.schedule;
+  ContactSituation situation;
+  situation.turn = schedule.turnAboutHinge(dynamics_.endEffector(x).p_WE);
+  const double t = toSeconds(now - kSimStart), turn = situation.turn;
+  Tasks tasks;
+  schedule.at(t, t, tasks, situation);
+  if (tasks.inContact()) report.asked_W = tasks.R_WC * tasks.contact_force_C;
+  const double asked = tasks.inContact() ? tasks.contact_force_C.z() : 0;
+  supervisor_.update(now, asked, tasks.R_WC.col(2).dot(contact_force_W_));
+  situation = supervisor_.situation();
+  situation.turn = turn;
+  engine_->setContact(situation);
+  schedule.at(t, t, tasks, situation);
+  if (tasks.inContact()) report.counted_on_W = tasks.R_WC * tasks.contact_force_C;
+  report.state = static_cast<std::int8_t>(supervisor_.state());
+  return report;
+}
 
 PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf,
                             const JointVector& joint_angle, const PolicySample& stand_in,
@@ -86,6 +112,7 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
     report.status = "state not finite";
     return report;
   }
+  report.contact = superviseContact(now, x);
   const bool fresh = previous.valid() && now - previous.stamp() <= config_.fallback_after;
   if (!fresh) {
     for (auto& knot : seed_.knots()) knot.x << stand_in.x, Vector3::Zero();

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "controller/contact_supervisor.hpp"
 #include "controller/continuous_engine.hpp"
 #include "controller/frequency_shaping.hpp"
 #include "controller/horizon.hpp"
@@ -20,6 +21,7 @@ struct MpcConfig {
   int threads = 1;            ///< the solver's; results are the same with 1 and 2
   bool solver_thread = false; ///< solve beside the control loop: for real time, not repeatable
   bool contact_forces = false;  ///< the plan has end-effector forces as inputs
+  ContactSupervision contact_supervision;
   SimDuration fallback_after = std::chrono::milliseconds(100);  ///< without a good plan
   FrequencyShaping shaping;
   Constraints constraints;
@@ -55,12 +57,24 @@ class MpcPlanner {
                   const JointVector& joint_angle, const PolicySample& stand_in,
                   const MpcPolicy& previous, MpcPolicy& out) noexcept;
 
+  /// Force of the environment on the end-effector as measured, for the plans that follow [N].
+  void setContactForce(const Vector3& force_W) noexcept { contact_force_W_ = force_W; }
+
+  /// What the planner makes of it; part of the state to be saved.
+  const ContactSupervisor& contact() const noexcept { return supervisor_; }
+  void setContact(const ContactSupervisor& supervisor) noexcept { supervisor_ = supervisor; }
+
   double shift() const noexcept { return engine_->shift(); }
   void setShift(double shift) noexcept { engine_->setShift(shift); }
 
  private:
+  /// Tells the engine what to count on at the end-effector.
+  ContactReport superviseContact(SimTime now, const StateVector& x) noexcept;
+
   MpcConfig config_;
   ReducedDynamics dynamics_;
+  ContactSupervisor supervisor_;
+  Vector3 contact_force_W_ = Vector3::Zero();
   std::unique_ptr<MpcEngine> engine_;
   MpcPolicy seed_;
 };

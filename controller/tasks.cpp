@@ -1,5 +1,6 @@
 #include "controller/tasks.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -60,6 +61,10 @@ TaskSchedule TaskSchedule::read(ConfigReader& in, const RobotParameters& robot) 
   readTask(in, "wheel_torque", s.wheel_torque_weight);
   readTask(in, "arm_torque", s.arm_torque_weight);
   readTask(in, "contact_force", s.contact_force_weight, &s.contact_force);
+  if (in.has("contact_hinge_m")) {
+    const auto hinge = in.numbers<2>("contact_hinge_m", {-1e3, 1e3});
+    s.contact_hinge = Eigen::Vector2d(hinge[0], hinge[1]);
+  }
   if (in.has("contact_normal")) {
     const auto n = in.numbers<3>("contact_normal", {-1, 1});
     s.contact_normal_W << n[0], n[1], n[2];
@@ -80,7 +85,7 @@ TaskSchedule TaskSchedule::read(ConfigReader& in, const RobotParameters& robot) 
   return s;
 }
 
-void TaskSchedule::at(double t, double now, Tasks& out) const {
+void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& contact) const {
   const double known = preview ? t : now;
   out.ee_position_weight = ee_position_weight.value(t, known);
   out.ee_orientation_weight = ee_orientation_weight.value(t, known);
@@ -94,7 +99,8 @@ void TaskSchedule::at(double t, double now, Tasks& out) const {
   out.arm_rate_weight = arm_rate_weight.value(t, known);
   out.wheel_torque_weight = wheel_torque_weight.value(t, known)[0];
   out.arm_torque_weight = arm_torque_weight.value(t, known)[0];
-  out.contact_force_weight = contact_force_weight.value(t, known);
+  out.contact_force_weight.setZero();
+  if (!contact.lost) out.contact_force_weight = contact_force_weight.value(t, known);
 
   const Vector3 angles = ee_orientation.value(t, known);
   out.p_WE = ee_position.value(t, known);
@@ -106,7 +112,18 @@ void TaskSchedule::at(double t, double now, Tasks& out) const {
   out.yaw = yaw.value(t, known)[0];
   out.arm_position = arm_position.value(t, known);
   out.contact_force_C = contact_force.value(t, known);
-  out.R_WC = contactFrame(contact_normal_W);
+  double& normal_force = out.contact_force_C.z();
+  normal_force = std::min(normal_force, contact.force_limit) + contact.force_added;
+  out.R_WC = Eigen::AngleAxisd(contact.turn, Vector3::UnitZ()) * contactFrame(contact_normal_W);
+}
+
+double TaskSchedule::turnAboutHinge(const Vector3& p_WE) const {
+  if (!contact_hinge) return 0;
+  const Eigen::Vector2d normal = contact_normal_W.head<2>();
+  const Eigen::Vector2d along = p_WE.head<2>() - *contact_hinge;
+  Eigen::Vector2d across(-along.y(), along.x());
+  if (across.dot(normal) < 0) across = -across;
+  return std::atan2(normal.x() * across.y() - normal.y() * across.x(), normal.dot(across));
 }
 
 Matrix3 contactFrame(const Vector3& normal) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <limits>
+#include <optional>
+
 #include "controller/time_signal.hpp"
 #include "model/reduced_dynamics.hpp"
 
@@ -44,6 +47,14 @@ struct Tasks {
   bool inContact() const { return !contact_force_weight.isZero(0); }
 };
 
+/// What a plan has to know about the contact beyond the schedule.
+struct ContactSituation {
+  bool lost = false;  ///< there is nothing to push against: contact tasks are off
+  double turn = 0;    ///< of the contact frame about the vertical, on top of the schedule's [rad]
+  double force_limit = std::numeric_limits<double>::infinity();  ///< on the normal force asked [N]
+  double force_added = 0;  ///< to the normal force asked, after the limit [N]
+};
+
 /// The tasks over time: each with a weight that may change at given times and a reference made of
 /// steps, ramps and circles. References start from the pose of the robot at rest at the origin.
 class TaskSchedule {
@@ -53,11 +64,15 @@ class TaskSchedule {
 
   /// Keys, each optional, as in docs/theory/mpc.md: ee_position, ee_orientation, ee_velocity,
   /// ee_rate, ball_position, yaw, ball_velocity, base_rate, arm_position, arm_rate, wheel_torque,
-  /// arm_torque, contact_force, contact_frame.
+  /// arm_torque, contact_force, contact_normal, contact_hinge_m.
   static TaskSchedule read(ConfigReader& in, const RobotParameters& robot);
 
   /// Tasks at time t [s] as known at `now` <= t, see TimeSignal::value. Free of allocation.
-  void at(double t, double now, Tasks& out) const;
+  void at(double t, double now, Tasks& out, const ContactSituation& contact = {}) const;
+
+  /// How far a door on `contact_hinge` has turned when the end-effector touches it at p_WE, less
+  /// than a quarter turn to either side [rad]; 0 without a hinge.
+  double turnAboutHinge(const Vector3& p_WE) const;
 
   /// Whether plans know of steps and switched weights before they come. Off: they are commands.
   bool preview = false;
@@ -76,7 +91,8 @@ class TaskSchedule {
   TimeSignal<3> arm_position;    ///< [rad]
   TimeSignal<3> contact_force;   ///< in C [N]
 
-  Vector3 contact_normal_W = -Vector3::UnitX();  ///< unit, pointing to the robot
+  Vector3 contact_normal_W = -Vector3::UnitX();  ///< unit, pointing to the robot, before any turn
+  std::optional<Eigen::Vector2d> contact_hinge;  ///< vertical axis the touched surface turns on [m]
 };
 
 /// Contact frame whose z axis is `normal`; x is horizontal.

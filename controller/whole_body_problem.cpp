@@ -55,10 +55,11 @@ WholeBodyProblem<NU>::WholeBodyProblem(const RobotParameters& robot, const Const
 }
 
 template <int NU>
-void WholeBodyProblem<NU>::setTasks(const TaskSchedule& schedule, double t0) noexcept {
+void WholeBodyProblem<NU>::setTasks(const TaskSchedule& schedule, double t0,
+                                    const ContactSituation& contact) noexcept {
   double t = t0;
   for (std::size_t k = 0; k < tasks_.size(); ++k) {
-    schedule.at(t, t0, tasks_[k]);
+    schedule.at(t, t0, tasks_[k], contact);
     if (k < steps_.size()) t += steps_[k].H;
   }
 }

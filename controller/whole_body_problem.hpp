@@ -36,7 +36,8 @@ class WholeBodyProblem final : public OptimalControlProblem<kMpcStateDim, NU> {
                    const std::vector<double>& knots);
 
   /// Tasks for a horizon that starts at t0 [s]. Free of allocation.
-  void setTasks(const TaskSchedule& schedule, double t0) noexcept;
+  void setTasks(const TaskSchedule& schedule, double t0,
+                const ContactSituation& contact = {}) noexcept;
   /// For tests and special uses: the tasks of one knot.
   Tasks& tasks(int k) { return tasks_[k]; }
 

@@ -94,6 +94,10 @@ std::vector<LogTable> logTables(const RunLog& log) {
       .add("quat_WE_z", "", [](const truth_frame& m) { return m.quat_WE[3]; })
       .addVector("external_force_W", "N", [](const truth_frame& m) { return m.external_force_W; })
       .addVector("contact_force_W", "N", [](const truth_frame& m) { return m.contact_force_W; })
+      .addVector("contact_point_W", "m", [](const truth_frame& m) { return m.contact_point_W; })
+      .add("contact_phase", "", [](const truth_frame& m) { return m.contact_phase; })
+      .add("door_angle", "rad", [](const truth_frame& m) { return m.door_angle; })
+      .add("door_rate", "rad/s", [](const truth_frame& m) { return m.door_rate; })
       .into(tables);
   TableBuilder<state_estimate>("estimate", log.estimates)
       .addState([](const state_estimate& m) { return m.q; }, [](const state_estimate& m) { return m.nu; })
@@ -105,6 +109,7 @@ std::vector<LogTable> logTables(const RunLog& log) {
       .add("sigma_vx", "m/s", [](const state_estimate& m) { return m.sigma[5]; })
       .add("sigma_vy", "m/s", [](const state_estimate& m) { return m.sigma[6]; })
       .addVector("sigma_omega", "rad/s", [](const state_estimate& m) { return m.sigma + 7; })
+      .addVector("contact_force_W", "N", [](const state_estimate& m) { return m.contact_force_W; })
       .add("aligned", "", [](const state_estimate& m) { return m.aligned; })
       .into(tables);
   TableBuilder<actuator_command>("command", log.commands)
@@ -121,6 +126,9 @@ std::vector<LogTable> logTables(const RunLog& log) {
       .add("cost", "", [](const plan_report& m) { return m.cost; })
       .add("step_length", "", [](const plan_report& m) { return m.step_length; })
       .add("constraint_violation", "", [](const plan_report& m) { return m.constraint_violation; })
+      .add("contact_state", "", [](const plan_report& m) { return m.contact_state; })
+      .addVector("contact_asked_W", "N", [](const plan_report& m) { return m.contact_asked_W; })
+      .addVector("contact_counted_on_W", "N", [](const plan_report& m) { return m.contact_counted_on_W; })
       .into(tables);
   return tables;
 }

@@ -9,6 +9,12 @@
 #include "model/robot_reader.hpp"
 
 namespace ballbot {
+namespace {
+
+/// Of the contact force observer: slower than the arm's rate noise, faster than a slip [rad/s].
+constexpr double kContactForceBandwidth = 25;
+
+}  // namespace
 
 RobotController::RobotController(const Scenario& scenario, EventCalendar& calendar)
     : release_(scenario.release),
@@ -25,6 +31,7 @@ RobotController::RobotController(const Scenario& scenario, EventCalendar& calend
   RobotParameters believed = robot;
   believed.payload_mass = in.numberOr("known_payload_kg", robot.payload_mass, {0, 5});
   law_ = makeControlLaw(in, believed);
+  contact_force_ = std::make_unique<ContactForceObserver>(believed, kContactForceBandwidth);
   ConfigReader tracker_in = in.child("tracker");
   tracker_ = std::make_unique<PdTracker>(TrackerConfig::read(tracker_in, robot));
   tracker_in.finish();
@@ -46,8 +53,15 @@ void RobotController::onSensors(SimTime now, const SensorFrame& sensors, DueTask
     // estimator, holds all that it ever saw.
     estimator_->update(sensors, now < release_);
     const StateEstimate estimate = estimator_->estimate(now);
+    if (now < release_) {
+      contact_force_->reset();  // the stand holds the arm, too
+    } else {
+      contact_force_->update(now, estimate.x, sensors.joint_torque);
+      law_->setContactForce(contact_force_->force());
+    }
     out.has_estimate = true;
     toMessage(now, estimate.x, estimate.sigma, estimate.aligned, out.estimate);
+    Eigen::Map<Vector3>{out.estimate.contact_force_W} = contact_force_->force();
   }
   // A plan that has become old enough acts before a new one is begun.
   if (plan_pending_ && now >= pending_since_ + plan_latency_) {
@@ -75,6 +89,9 @@ void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutpu
   out.plan.cost = report.cost;
   out.plan.step_length = report.step_length;
   out.plan.constraint_violation = report.constraint_violation;
+  out.plan.contact_state = report.contact.state;
+  Eigen::Map<Vector3>{out.plan.contact_asked_W} = report.contact.asked_W;
+  Eigen::Map<Vector3>{out.plan.contact_counted_on_W} = report.contact.counted_on_W;
   if (plan_latency_ == SimDuration::zero() || !has_policy_) {
     // The first plan acts at once: it was made while the stand still held the robot.
     law_->activatePlan();
@@ -106,6 +123,7 @@ StateBlob RobotController::saveState() const {
   BlobWriter out;
   out.putBlob(estimator_->saveState());
   out.putBlob(law_->saveState());
+  contact_force_->save(out);
   putPolicySample(out, policy_);
   out.put(plan_pending_);
   out.put(has_policy_);
@@ -114,13 +132,15 @@ StateBlob RobotController::saveState() const {
   out.put(plans_refused_);
   out.put(ticks_saturated_);
   out.put(ticks_not_finite_);
-  return out.seal("controller", 1);
+  return out.seal("controller", 2);
 }
 
 void RobotController::restoreState(const StateBlob& blob) {
-  BlobReader in(blob, "controller", 1);
+  BlobReader in(blob, "controller", 2);
   estimator_->restoreState(in.getBlob());
   law_->restoreState(in.getBlob());
+  contact_force_->restore(in);
+  law_->setContactForce(contact_force_->force());
   getPolicySample(in, policy_);
   plan_pending_ = in.get<bool>();
   has_policy_ = in.get<bool>();

@@ -11,6 +11,7 @@
 #include "controller/pd_tracker.hpp"
 #include "cosim/schedule.hpp"
 #include "cosim/stepped_controller.hpp"
+#include "estimator/contact_force_observer.hpp"
 #include "estimator/estimator.hpp"
 #include "experiment/scenario.hpp"
 
@@ -48,6 +49,7 @@ class RobotController final : public SteppedController {
   SimTime release_;
   SimDuration tracker_period_, plan_latency_;
   std::unique_ptr<Estimator> estimator_;
+  std::unique_ptr<ContactForceObserver> contact_force_;
   std::unique_ptr<ControlLaw> law_;
   std::unique_ptr<PdTracker> tracker_;
   TaskId tracker_task_, estimator_task_, planner_task_;

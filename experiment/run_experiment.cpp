@@ -15,9 +15,11 @@
 #include "experiment/run_report.hpp"
 #include "messages/convert.hpp"
 #include "metrics/balance_metrics.hpp"
+#include "metrics/contact_metrics.hpp"
 #include "metrics/ee_step_metrics.hpp"
 #include "metrics/estimation_errors.hpp"
 #include "metrics/push_metrics.hpp"
+#include "model/robot_reader.hpp"
 #include "plant/environment.hpp"
 
 namespace ballbot {
@@ -46,6 +48,7 @@ std::vector<std::string> knownMetrics(const RobotController& controller) {
   std::vector<std::string> names = BalanceMetrics::names();
   for (const std::string& name : PushMetrics::names()) names.push_back(name);
   for (const std::string& name : EeStepMetrics::names()) names.push_back(name);
+  for (const std::string& name : ContactMetrics::names()) names.push_back(name);
   for (const std::string& name : EstimationErrors::names()) names.push_back(name);
   for (const auto& counter : controller.counters()) names.push_back(counter.first);
   return names;
@@ -95,9 +98,11 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   const auto planned_plans = static_cast<std::size_t>(scenario.duration / scenario.rates.planner) + 1;
   controller.timePlans(wallNs, planned_plans);
   Recorder recorder(readRecorderOptions(scenario, folder.logFile()));
+  ConfigReader robot_in(scenario.section("robot"), "robot");
   BalanceMetrics metrics(scenario.release);
   PushMetrics push_metrics(pushIntervals(scenario));
   EstimationErrors estimation_errors = makeEstimationErrors(scenario);
+  ContactMetrics contact_metrics(readRobot(robot_in));
   EeStepMetrics step_metrics(reference.initial, reference.steps, kSimStart + scenario.duration);
 
   MasterOptions master_options;
@@ -109,6 +114,8 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
       metrics.add(*tick.truth, tick.control.command);
       push_metrics.add(*tick.truth);
       step_metrics.add(*tick.truth);
+      contact_metrics.add(*tick.truth, Eigen::Map<const Vector3>(tick.control.plan.contact_asked_W),
+                          Eigen::Map<const Vector3>(tick.control.estimate.contact_force_W));
       if (tick.control.has_estimate) {
         estimation_errors.add(*tick.truth, stateOf(tick.control.estimate));
         if (const auto own = controller.estimator().selfAssessment()) {
@@ -143,6 +150,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   result.metrics = metrics.values();
   for (const auto& value : push_metrics.values()) result.metrics.insert(value);
   for (const auto& value : step_metrics.values()) result.metrics.insert(value);
+  for (const auto& value : contact_metrics.values()) result.metrics.insert(value);
   for (const auto& value : estimation_errors.values()) result.metrics.insert(value);
   for (const auto& counter : controller.counters()) result.metrics.insert(counter);
   result.verdicts = judge(scenario.requirements, result.metrics, known_metrics);

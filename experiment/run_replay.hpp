@@ -3,14 +3,17 @@
 #include <vector>
 
 #include "cosim/log_reader.hpp"
+#include "experiment/ee_reference.hpp"
 #include "model/robot_parameters.hpp"
 #include "plant/environment.hpp"
 #include "report/report_data.hpp"
 
 namespace ballbot {
 
-/// The 3-D replay of a run from its recorded truth: base, ball, joints, end-effector frame, pushes.
+/// The 3-D replay of a run from its recorded truth: base, ball, joints, the end-effector's frame and
+/// what was asked of it, pushes where they act, contact.
 /// Nothing if no truth was recorded. `pushes` are the scheduled ones, for where they act.
-ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot, const std::vector<Push>& pushes);
+ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot,
+                        const std::vector<Push>& pushes, const EeReference& reference);
 
 }  // namespace ballbot

@@ -7,6 +7,7 @@
 #include "core/config_reader.hpp"
 #include "cosim/log_reader.hpp"
 #include "experiment/build_info.hpp"
+#include "experiment/contact_report.hpp"
 #include "experiment/ee_reference.hpp"
 #include "experiment/log_tables.hpp"
 #include "experiment/rejection_metrics.hpp"
@@ -196,10 +197,19 @@ void writeRunReport(const Scenario& scenario, const RunResult& result, const Run
                                                                   ? result.metrics.at("largest_tilt_deg")
                                                                   : std::nan(""))}};
   addVerdicts(result, data);
-  data.groups = {ballGroup(tables), baseGroup(tables), handGroup(log, readEeReference(scenario)),
+  const EeReference reference = readEeReference(scenario);
+  data.groups = {ballGroup(tables), baseGroup(tables), handGroup(log, reference),
                  torqueGroup(tables, robot), armGroup(tables)};
+  const SurroundingsParameters surroundings = surroundingsOf(scenario.tree);
+  if (auto contact = contactGroup(log, robot, surroundings)) {
+    data.groups.insert(data.groups.begin(), std::move(*contact));
+  }
   data.phases = phasesOf(scenario, pushes);
-  if (!log.truth.empty()) data.replay = makeReplay(log, robot, pushes);
+  for (ReportPhase& phase : contactPhases(log)) data.phases.push_back(std::move(phase));
+  if (!log.truth.empty()) {
+    data.replay = makeReplay(log, robot, pushes, reference);
+    data.replay->objects = replayObjects(log, surroundings);
+  }
   data.manifest = {{"scenario", scenario.name}, {"seed", std::to_string(scenario.seed)},
                    {"config digest", scenario.configDigest()}, {"trajectory digest", result.trajectory_digest}};
   for (const auto& [key, value] : buildInfo()) data.manifest.push_back({key, value});

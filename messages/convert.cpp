@@ -79,6 +79,10 @@ void toMessage(const TruthFrame& truth, std::int64_t tick, ballbot_msgs::truth_f
   copyTo(truth.quat_WE, out.quat_WE);
   copyTo(truth.external_force_W, out.external_force_W);
   copyTo(truth.contact_force_W, out.contact_force_W);
+  copyTo(truth.contact_point_W, out.contact_point_W);
+  out.contact_phase = static_cast<std::int8_t>(truth.contact_phase);
+  out.door_angle = truth.door_angle;
+  out.door_rate = truth.door_rate;
 }
 
 void fromMessage(const ballbot_msgs::truth_frame& message, TruthFrame& out) {
@@ -93,6 +97,10 @@ void fromMessage(const ballbot_msgs::truth_frame& message, TruthFrame& out) {
   copyFrom(message.quat_WE, out.quat_WE);
   copyFrom(message.external_force_W, out.external_force_W);
   copyFrom(message.contact_force_W, out.contact_force_W);
+  copyFrom(message.contact_point_W, out.contact_point_W);
+  out.contact_phase = static_cast<ContactPhase>(message.contact_phase);
+  out.door_angle = message.door_angle;
+  out.door_rate = message.door_rate;
 }
 
 void toMessage(SimTime time, const StateVector& x, const Eigen::Matrix<double, 10, 1>& sigma,

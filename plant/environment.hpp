@@ -32,8 +32,8 @@ std::vector<Push> readPushes(ConfigReader& environment, const RobotParameters& r
 /// The pushes of a scenario, for whoever draws them. `scenario` is the whole tree.
 std::vector<Push> scheduledPushes(const ConfigNode& scenario);
 
-/// What the world outside does to the robot. Forces act through MultibodyLoads::forces; a wall or a
-/// door would add its own from the end-effector's motion at the same place.
+/// What the world outside does to the robot whatever the robot does. What it can touch, and what
+/// touches back, is in plant/surroundings.hpp.
 class Environment {
  public:
   explicit Environment(std::vector<Push> pushes) : pushes_(std::move(pushes)) {}

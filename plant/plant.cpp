@@ -22,12 +22,14 @@ constexpr double kTwoPi = 6.283185307179586476925;
 std::string stateForm(const PlantConfig& c) {
   const PlantFidelity& f = c.fidelity;
   return fmt::format(
-      "multibody {}, actuators {}, contact {}, drive period {}, delay of {} ticks, IMU period {}",
+      "multibody {}, actuators {}, contact {}, drive period {}, delay of {} ticks, IMU period "
+      "{}{}{}",
       f.multibody == MultibodyStructure::kFull ? "full" : "reduced_wheels",
       f.actuators == ActuatorLevel::kIdeal ? "ideal" : "series_elastic",
       f.contact == ContactLevel::kRolling ? "rolling" : "rolling_with_spin_friction",
       toText(c.drive_period), f.transport_delay ? c.transport_delay_ticks : 0,
-      toText(c.sensors.imu.period));
+      toText(c.sensors.imu.period), c.surroundings.door ? ", a door" : "",
+      c.surroundings.wall ? ", a wall" : "");
 }
 
 void requireFinite(const ActuatorCommand& command, SimTime t) {
@@ -69,7 +71,7 @@ class Plant::Impl {
     state_ = State(config_, dynamics_.dim());
     State& s = state_;
     s.start = s.now = s.last_tick = start;
-    dynamics_.multibody().place(config_.initial.pose, s.y.data());
+    dynamics_.place(config_.initial.pose, s.y.data());
     dynamics_.actuators().reset();
     dynamics_.multibody().realize(s.y.data());
     s.drives.reset(dynamics_.multibody().joints());
@@ -212,8 +214,8 @@ class Plant::Impl {
   /// What happens at a point of time: the IMU closes its interval, the drives read their encoders.
   void arrive() {
     State& s = state_;
-    Multibody& robot = dynamics_.multibody();
-    robot.realize(s.y.data());
+    dynamics_.settle(s.y.data());
+    const Multibody& robot = dynamics_.multibody();
     const double yaw = yawPitchRollFromRotation(robot.base().R_WB)[0];
     s.yaw += std::remainder(yaw - s.yaw, kTwoPi);
     if (isMultiple(s.now, config_.sensors.imu.period)) {
@@ -280,6 +282,13 @@ class Plant::Impl {
     const Eigen::Quaterniond q(Matrix3(hand.R_WL * config_.robot.R_A3E));
     f.quat_WE << q.w(), q.x(), q.y(), q.z();
     f.external_force_W = environment_.totalForce(state_.now);
+    const Touch touch = dynamics_.touch(state_.y.data());
+    const DoorMotion door = dynamics_.door(state_.y.data());
+    f.contact_force_W = touch.force_W;
+    f.contact_point_W = touch.foot_W;
+    f.contact_phase = touch.phase;
+    f.door_angle = door.angle;
+    f.door_rate = door.rate;
   }
 
   PlantConfig config_;

@@ -81,6 +81,7 @@ void readInitial(ConfigReader in, PlantConfig& c) {
 
 void readEnvironment(ConfigReader in, PlantConfig& c) {
   c.pushes = readPushes(in, c.robot);
+  c.surroundings = SurroundingsParameters::read(in);
   c.robot.payload_mass = in.numberOr("payload_kg", c.robot.payload_mass, {0, 100});
   in.finish();
 }

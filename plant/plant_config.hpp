@@ -9,6 +9,7 @@
 #include "plant/faults.hpp"
 #include "plant/multibody.hpp"
 #include "plant/sensors.hpp"
+#include "plant/surroundings.hpp"
 
 namespace ballbot {
 
@@ -59,6 +60,7 @@ struct PlantConfig {
   InitialCondition initial;
   std::vector<Push> pushes;
   std::vector<Fault> faults;
+  SurroundingsParameters surroundings;
   std::uint64_t seed = 1;
 };
 

@@ -28,6 +28,8 @@ PlantDynamics::PlantDynamics(const PlantConfig& config)
       spin_friction_(config.spin_friction),
       gravity_(config.robot.gravity),
       p_BI_B_(config.robot.p_BI_B),
+      p_A3E_(config.robot.p_A3E),
+      surroundings_(config.surroundings),
       multibody_(makeMultibody(config.robot, multibodyOptions(config))) {
   for (int i = 0; i < kJointCount; ++i) {
     actuators_.units.emplace_back(parameters_.of(i), fidelity_.friction, fidelity_.speed_limit,
@@ -38,6 +40,32 @@ PlantDynamics::PlantDynamics(const PlantConfig& config)
 
 void PlantDynamics::demand(const JointVector& motor_torque, double since_last) {
   for (int i = 0; i < kJointCount; ++i) actuators_.units[i].demand(motor_torque[i], since_last);
+}
+
+void PlantDynamics::place(const RobotPose& pose, double* y) const {
+  multibody_->place(pose, y);
+  surroundings_.place(y + multibody_->stateDim());
+}
+
+void PlantDynamics::settle(double* y) {
+  multibody_->realize(y);
+  if (surroundings_.stateDim() > 0) {
+    surroundings_.settle(endEffector(), y + multibody_->stateDim());
+  }
+}
+
+Surroundings::Point PlantDynamics::endEffector() const {
+  const BodyMotion link = multibody_->body(kLink3Body);
+  const Vector3 r = link.R_WL * p_A3E_;
+  return {link.p_WL + r, link.v_WL_W + link.w_WL_W.cross(r)};
+}
+
+Touch PlantDynamics::touch(const double* y) const {
+  return surroundings_.observe(surroundingsState(y), endEffector());
+}
+
+double PlantDynamics::energy(const double* y) const {
+  return multibody_->energy() + surroundings_.energy(surroundingsState(y), endEffector());
 }
 
 void PlantDynamics::applyActuators(double since_tick) {
@@ -60,6 +88,12 @@ void PlantDynamics::derivative(double since_tick, const double* y, double* ydot)
   applyActuators(since_tick);
   const BaseMotion base = multibody_->base();
   BaseAcceleration acceleration;
+  const std::size_t pushes = loads_.forces.size();
+  if (surroundings_.stateDim() > 0) {
+    const Vector3 force = surroundings_.derivative(surroundingsState(y), endEffector(),
+                                                   ydot + multibody_->stateDim());
+    loads_.forces.push_back({kLink3Body, p_A3E_, force});
+  }
   if (held_) {
     multibody_->derivativeHeld(loads_, ydot);
   } else {
@@ -68,6 +102,7 @@ void PlantDynamics::derivative(double since_tick, const double* y, double* ydot)
     multibody_->derivative(loads_, ydot);
     acceleration = multibody_->baseAcceleration(ydot);
   }
+  loads_.forces.resize(pushes);
   forceIntegral(ydot, dim()) = specificForce(base, acceleration);
   rateIntegral(ydot, dim()) = base.R_WB.transpose() * base.w_WB_W;
 }

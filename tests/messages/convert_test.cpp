@@ -99,6 +99,10 @@ TEST(Convert, ATruthFrameKeepsEveryBit) {
   fill(truth.quat_WE, i);
   fill(truth.external_force_W, i);
   fill(truth.contact_force_W, i);
+  fill(truth.contact_point_W, i);
+  truth.contact_phase = ContactPhase::kSliding;
+  truth.door_angle = 0.1;
+  truth.door_rate = -0.2;
   truth.time = simTimeFromNs(99);
 
   ballbot_msgs::truth_frame message{};
@@ -117,6 +121,10 @@ TEST(Convert, ATruthFrameKeepsEveryBit) {
   EXPECT_TRUE(sameBits(back.quat_WE, truth.quat_WE));
   EXPECT_TRUE(sameBits(back.external_force_W, truth.external_force_W));
   EXPECT_TRUE(sameBits(back.contact_force_W, truth.contact_force_W));
+  EXPECT_TRUE(sameBits(back.contact_point_W, truth.contact_point_W));
+  EXPECT_EQ(back.contact_phase, truth.contact_phase);
+  EXPECT_EQ(back.door_angle, truth.door_angle);
+  EXPECT_EQ(back.door_rate, truth.door_rate);
 }
 
 TEST(Convert, AnEstimateKeepsStateAndDeviation) {
