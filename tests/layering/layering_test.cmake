@@ -24,6 +24,10 @@ set(never_plant model/reduced_dynamics.hpp model/newton_euler.hpp model/residual
 set(never_controller model/truth.hpp)
 set(never_estimator model/truth.hpp)
 
+# Emulated drives that shared the master's codec would share its mistakes: of hil/ they may know
+# only what carries frames, and nothing of hil/ may know them.
+set(carriers_of_frames hil/can_frame.hpp hil/can_bus.hpp hil/serial_port.hpp)
+
 # A library behind one door: who may include its headers.
 set(door_names simbody yaml urdf lcm)
 set(door_simbody_headers "Simbody.h|SimTKcommon|simbody/")
@@ -57,6 +61,12 @@ foreach(file ${files})
       if((DEFINED may_${target} AND NOT target IN_LIST may) OR included IN_LIST never_${folder})
         message(SEND_ERROR "${file} includes ${included}, which ${folder}/ must not know. "
                            "See docs/architecture.md for who may include whom.")
+      endif()
+      if(file MATCHES "^hil/emulator/" AND included MATCHES "^hil/[^/]*$"
+         AND NOT included IN_LIST carriers_of_frames)
+        message(SEND_ERROR "${file} includes ${included}: the emulated drives have codecs of their own.")
+      elseif(file MATCHES "^hil/[^/]*$" AND included MATCHES "^hil/emulator/")
+        message(SEND_ERROR "${file} includes ${included}: the bench must not know what it talks to.")
       endif()
     elseif(line MATCHES "#include <([^>]*)>")
       set(included ${CMAKE_MATCH_1})

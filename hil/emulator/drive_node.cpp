@@ -1,0 +1,328 @@
+#include "hil/emulator/drive_node.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hil/emulator/sdo_server.hpp"
+
+namespace ballbot {
+namespace {
+
+using namespace sdo_abort;
+
+constexpr std::uint32_t kServoDrive = 0x00020192;  // 1000: CiA 402, type 2: servo drive
+constexpr std::uint32_t kProduct = 0xBA11;
+constexpr double kTwoPi = 6.283185307179586476925;
+constexpr double kNmPerMilli = 1e-3;
+constexpr std::int64_t kModeCsp = 8, kModeCst = 10;
+constexpr std::int64_t kSupportedModes = 1 << 7 | 1 << 9;
+constexpr std::uint8_t kDeviceError = 0x80;
+constexpr std::uint16_t kConnectionFault = 0x8130;
+
+std::int64_t rounded(double value, double low, double high) {
+  return std::llround(std::clamp(value, low, high));
+}
+
+}  // namespace
+
+DriveNode::DriveNode(const EmulatedDriveParameters& p)
+    : CanopenNode(p.node, kServoDrive, "ballbot emulated drive", kProduct), parameters_(p) {
+  addObjects(p);
+}
+
+void DriveNode::addObjects(const EmulatedDriveParameters& p) {
+  ObjectDictionary& d = dictionary();
+  using A = OdAccess;
+  using T = OdType;
+  const auto input = [&](std::uint16_t index, const char* name, T type) {
+    d.variable(index, name, type, A::kReadOnly, 0).mappable = true;
+  };
+  const auto output = [&](std::uint16_t index, const char* name, T type, std::int64_t value) {
+    d.variable(index, name, type, A::kReadWrite, value).mappable = true;
+  };
+  const auto option = [&](std::uint16_t index, const char* name, int low, int high, int value) {
+    OdEntry& e = d.variable(index, name, T::kI16, A::kReadWrite, value);
+    e.low = low;
+    e.high = high;
+  };
+  d.variable(0x2000, "Drive temperature in 0.1 degC", T::kI16, A::kReadOnly, 315).mappable = true;
+  d.structure(0x2010, "Position loop", OdShape::kRecord);
+  d.sub(0x2010, 1, "Stiffness in mNm per rad", T::kU32, A::kReadWrite, 0);
+  d.sub(0x2010, 2, "Damping in mNm s per rad", T::kU32, A::kReadWrite, 0);
+  option(0x6007, "Abort connection option code", 0, 3, 1);
+  input(0x603F, "Error code", T::kU16);
+  output(0x6040, "Controlword", T::kU16, 0);
+  input(0x6041, "Statusword", T::kU16);
+  option(0x605A, "Quick stop option code", 0, 6, 2);
+  option(0x605E, "Fault reaction option code", 0, 2, 2);
+  output(0x6060, "Modes of operation", T::kI8, 0);
+  input(0x6061, "Modes of operation display", T::kI8);
+  input(0x6064, "Position actual value", T::kI32);
+  input(0x606C, "Velocity actual value", T::kI32);
+  output(0x6071, "Target torque", T::kI16, 0);
+  output(0x6072, "Max torque", T::kU16, p.max_torque_per_mille);
+  input(0x6074, "Torque demand", T::kI16);
+  d.variable(0x6076, "Motor rated torque", T::kU32, A::kReadOnly, p.rated_torque_mNm);
+  input(0x6077, "Torque actual value", T::kI16);
+  d.variable(0x6079, "DC link circuit voltage", T::kU32, A::kReadOnly, 48'000).mappable = true;
+  output(0x607A, "Target position", T::kI32, 0);
+  d.variable(0x6087, "Torque slope", T::kU32, A::kReadWrite, 100'000).low = 1;
+  d.structure(0x608F, "Position encoder resolution", OdShape::kArray);
+  d.sub(0x608F, 1, "Encoder increments", T::kU32, A::kReadOnly, p.encoder_counts);
+  d.sub(0x608F, 2, "Motor revolutions", T::kU32, A::kReadOnly, 1);
+  output(0x60B1, "Velocity offset", T::kI32, 0);
+  output(0x60B2, "Torque offset", T::kI16, 0);
+  d.structure(0x60C2, "Interpolation time period", OdShape::kRecord);
+  OdEntry& period = d.sub(0x60C2, 1, "Interpolation time period value", T::kU8, A::kReadWrite, 25);
+  period.low = 1;
+  OdEntry& exponent = d.sub(0x60C2, 2, "Interpolation time index", T::kI8, A::kReadWrite, -4);
+  exponent.low = -6;
+  exponent.high = 0;
+  d.structure(0x60E4, "Additional position actual value", OdShape::kArray);
+  d.sub(0x60E4, 1, "1st additional position actual value", T::kI32, A::kReadOnly, 0).mappable =
+      true;
+  d.structure(0x60E6, "Additional position encoder resolution - encoder increments",
+              OdShape::kArray);
+  d.sub(0x60E6, 1, "1st additional encoder increments", T::kU32, A::kReadOnly,
+        p.motor_encoder_counts);
+  d.structure(0x60EB, "Additional position encoder resolution - motor revolutions",
+              OdShape::kArray);
+  d.sub(0x60EB, 1, "1st additional motor revolutions", T::kU32, A::kReadOnly, 1);
+  d.variable(0x6502, "Supported drive modes", T::kU32, A::kReadOnly, kSupportedModes);
+
+  pdos().addReceive(0, {0x60400010, 0x60710010}, 255);
+  pdos().addReceive(1, {0x60400010, 0x60B20010, 0x607A0020}, 255);
+  pdos().addReceive(2, {0x60B10020}, 255);
+  pdos().addReceive(3, {}, 255);
+  pdos().addTransmit(0, {0x60410010, 0x60770010, 0x60640020}, 1);
+  pdos().addTransmit(1, {0x606C0020}, 1);
+  pdos().addTransmit(2, {0x60E40120}, 255);
+  pdos().addTransmit(3, {}, 255);
+}
+
+std::uint32_t DriveNode::judge(std::uint16_t index, std::uint8_t, std::int64_t value) {
+  switch (index) {
+    case 0x6060:
+      return value == 0 || value == kModeCsp || value == kModeCst ? kNone : kValue;
+    case 0x605A:  // ramps, with and without staying in quick stop
+      return value == 3 || value == 4 ? kValue : kNone;
+    case 0x60C2:  // not while it is interpolating
+      return enabled() ? kDeviceState : kNone;
+    default:
+      return kNone;
+  }
+}
+
+void DriveNode::onReset() {
+  power_ = Power::kSwitchOnDisabled;  // through "not ready to switch on", which takes no time here
+  last_controlword_ = 0;
+  forced_status_ = 0;
+  held_torque_ = last_torque_ = 0;
+}
+
+void DriveNode::onPowerOff() {
+  power_ = Power::kSwitchOnDisabled;
+  last_torque_ = 0;
+}
+
+void DriveNode::onWritten() {
+  const std::int64_t mode = dictionary().value(0x6060);
+  if (dictionary().value(0x6061) != mode) {
+    // A change of mode starts from nothing: old targets mean something else.
+    dictionary().set(0x6061, mode);
+    dictionary().set(0x6071, 0);
+  }
+  obey(static_cast<std::uint16_t>(dictionary().value(0x6040)));
+}
+
+// CiA 402-2: commands are patterns of bits 0 to 3; fault reset is a rising edge of bit 7.
+void DriveNode::obey(std::uint16_t c) {
+  const bool reset_edge = (c & 0x80) != 0 && (last_controlword_ & 0x80) == 0;
+  last_controlword_ = c;
+  if (power_ == Power::kFault) {
+    if (reset_edge && !cause_active_) {
+      power_ = Power::kSwitchOnDisabled;
+      dictionary().set(0x603F, 0);
+      emergencyOver(kDeviceError);
+    }
+    return;
+  }
+  if (power_ == Power::kFaultReactionActive) return;
+  const bool disable_voltage = (c & 0x02) == 0;
+  const bool quick_stop = (c & 0x06) == 0x02;
+  const bool shut_down = (c & 0x07) == 0x06;
+  const bool switch_on = (c & 0x0F) == 0x07;
+  const bool enable = (c & 0x0F) == 0x0F;
+  switch (power_) {
+    case Power::kSwitchOnDisabled:
+      if (shut_down) power_ = Power::kReadyToSwitchOn;
+      break;
+    case Power::kReadyToSwitchOn:
+      if (disable_voltage || quick_stop) power_ = Power::kSwitchOnDisabled;
+      if (switch_on || enable) power_ = Power::kSwitchedOn;
+      break;
+    case Power::kSwitchedOn:
+      if (disable_voltage || quick_stop) power_ = Power::kSwitchOnDisabled;
+      if (shut_down) power_ = Power::kReadyToSwitchOn;
+      if (enable && dictionary().value(0x6061) != 0) power_ = Power::kOperationEnabled;
+      break;
+    case Power::kOperationEnabled:
+      if (disable_voltage) power_ = Power::kSwitchOnDisabled;
+      if (quick_stop) startStop(Power::kQuickStopActive);
+      if (shut_down) power_ = Power::kReadyToSwitchOn;
+      if (switch_on) power_ = Power::kSwitchedOn;
+      break;
+    case Power::kQuickStopActive:
+      if (disable_voltage) power_ = Power::kSwitchOnDisabled;
+      if (enable && dictionary().value(0x605A) >= 5) power_ = Power::kOperationEnabled;
+      break;
+    default:
+      break;
+  }
+}
+
+void DriveNode::startStop(Power phase) {
+  held_torque_ = last_torque_;
+  stop_started_ns_ = now();
+  power_ = phase;
+  const std::int64_t option =
+      dictionary().value(phase == Power::kQuickStopActive ? 0x605A : 0x605E);
+  if (option == 0) finishStop();  // coasts at once
+}
+
+void DriveNode::finishStop() {
+  held_torque_ = 0;
+  if (power_ == Power::kFaultReactionActive) power_ = Power::kFault;
+  if (power_ == Power::kQuickStopActive && dictionary().value(0x605A) < 5) {
+    power_ = Power::kSwitchOnDisabled;
+  }
+}
+
+bool DriveNode::energized() const {
+  return powered() && (power_ == Power::kOperationEnabled || power_ == Power::kQuickStopActive ||
+                       power_ == Power::kFaultReactionActive);
+}
+
+void DriveNode::raiseFault(std::uint16_t code, std::uint8_t register_bit) {
+  if (!powered()) return;
+  cause_active_ = true;
+  dictionary().set(0x603F, code);
+  emergency(code, static_cast<std::uint8_t>(register_bit | kDeviceError));
+  if (power_ == Power::kFault || power_ == Power::kFaultReactionActive) return;
+  if (energized()) {
+    startStop(Power::kFaultReactionActive);
+  } else {
+    power_ = Power::kFault;
+  }
+}
+
+void DriveNode::onConnectionLost() {
+  switch (dictionary().value(0x6007)) {
+    case 1:
+      if (power_ == Power::kOperationEnabled || power_ == Power::kQuickStopActive) {
+        dictionary().set(0x603F, kConnectionFault);
+        startStop(Power::kFaultReactionActive);
+      }
+      break;
+    case 2:
+      if (energized()) power_ = Power::kSwitchOnDisabled;
+      break;
+    case 3:
+      if (power_ == Power::kOperationEnabled) startStop(Power::kQuickStopActive);
+      break;
+    default:
+      break;
+  }
+}
+
+void DriveNode::sticking(bool on) {
+  stuck_ = on;
+  stuck_angle_ = feedback_.joint_angle;
+}
+
+// The target within the drive's own limit; a limited target shows in the statusword.
+DriveOutput DriveNode::wanted() {
+  const ObjectDictionary& d = dictionary();
+  const double per_mille = static_cast<double>(d.value(0x6076)) * kNmPerMilli / 1000;
+  const std::int64_t limit = d.value(0x6072);
+  const bool position_mode = d.value(0x6061) == kModeCsp;
+  const std::int64_t target = d.value(position_mode ? 0x60B2 : 0x6071);
+  const std::int64_t given = std::clamp(target, -limit, limit);
+  limited_ = given != target;
+  dictionary().set(0x6074, given);
+  DriveOutput out;
+  out.torque = parameters_.sign * static_cast<double>(given) * per_mille;
+  if (!position_mode) return out;
+  const double turn = kTwoPi / static_cast<double>(parameters_.encoder_counts);
+  out.position =
+      parameters_.sign * static_cast<double>(d.value(0x607A)) * turn + parameters_.offset;
+  out.velocity = parameters_.sign * static_cast<double>(d.value(0x60B1)) * turn;
+  out.stiffness = static_cast<double>(d.value(0x2010, 1)) * kNmPerMilli;
+  out.damping = static_cast<double>(d.value(0x2010, 2)) * kNmPerMilli;
+  return out;
+}
+
+DriveOutput DriveNode::output(std::int64_t now_ns) {
+  DriveOutput out;
+  if (power_ == Power::kQuickStopActive || power_ == Power::kFaultReactionActive) {
+    const double per_mille = static_cast<double>(parameters_.rated_torque_mNm) * kNmPerMilli / 1000;
+    const double slope = static_cast<double>(dictionary().value(0x6087)) * per_mille;  // N m/s
+    const double left =
+        std::abs(held_torque_) - slope * 1e-9 * static_cast<double>(now_ns - stop_started_ns_);
+    if (left <= 0) finishStop();
+    out.torque = left > 0 ? std::copysign(left, held_torque_) : 0;
+  } else if (power_ == Power::kOperationEnabled && powered()) {
+    out = wanted();
+  }
+  if (!energized()) out = DriveOutput{};
+  last_torque_ = out.torque;
+  if (!energized()) dictionary().set(0x6074, 0);
+  return out;
+}
+
+void DriveNode::refresh() {
+  constexpr double kI32 = 2147483647, kI16 = 32767;
+  ObjectDictionary& d = dictionary();
+  const double s = parameters_.sign;
+  const double joint = kTwoPi / static_cast<double>(parameters_.encoder_counts);
+  const double motor = kTwoPi / static_cast<double>(parameters_.motor_encoder_counts);
+  const double per_mille = static_cast<double>(d.value(0x6076)) * kNmPerMilli / 1000;
+  const double angle = stuck_ ? stuck_angle_ : feedback_.joint_angle;
+  d.set(0x6064, rounded(s * (angle - parameters_.offset) / joint, -kI32, kI32));
+  d.set(0x606C, rounded(s * feedback_.joint_velocity / joint, -kI32, kI32));
+  d.set(0x60E4, 1, rounded(s * (feedback_.motor_angle - parameters_.offset) / motor, -kI32, kI32));
+  d.set(0x6077, rounded(s * feedback_.joint_torque / per_mille, -kI16, kI16));
+  d.set(0x6041, forced_status_ != 0 ? forced_status_ : statusword());
+}
+
+std::uint16_t DriveNode::statusword() const {
+  constexpr unsigned kVoltage = 1U << 4, kWarning = 1U << 7, kRemote = 1U << 9, kLimit = 1U << 11,
+                     kFollows = 1U << 12;
+  unsigned word = kVoltage | (operational() ? kRemote : 0U) | (warning_ ? kWarning : 0U);
+  switch (power_) {
+    case Power::kSwitchOnDisabled:
+      word |= 0x40;
+      break;
+    case Power::kReadyToSwitchOn:
+      word |= 0x21;
+      break;
+    case Power::kSwitchedOn:
+      word |= 0x23;
+      break;
+    case Power::kOperationEnabled:
+      word |= 0x27 | kFollows | (limited_ ? kLimit : 0U);
+      break;
+    case Power::kQuickStopActive:
+      word |= 0x07;
+      break;
+    case Power::kFaultReactionActive:
+      word |= 0x0F;
+      break;
+    case Power::kFault:
+      word |= 0x08;
+      break;
+  }
+  return static_cast<std::uint16_t>(word);
+}
+
+}  // namespace ballbot

@@ -1,0 +1,125 @@
+#include "hil/slcan_bus.hpp"
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "hil/emulator/pty_bus.hpp"
+#include "hil/open_can_bus.hpp"
+#include "tests/hil/support/random_bytes.hpp"
+
+namespace ballbot {
+namespace {
+
+using std::chrono::milliseconds;
+using ::testing::HasSubstr;
+
+template <typename Call>
+std::string errorOf(Call&& call) {
+  try {
+    call();
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+/// An adapter that answers from a thread of its own, as a real one does.
+class LiveAdapter {
+ public:
+  LiveAdapter() : thread_([this] { run(); }) {}
+  ~LiveAdapter() {
+    stop_ = true;
+    thread_.join();
+  }
+  PtyBus& bus() { return bus_; }
+
+ private:
+  // Sends every frame back.
+  void run() {
+    CanFrame frame;
+    while (!stop_) {
+      bus_.waitReadable(milliseconds(5));
+      while (bus_.receive(frame)) bus_.send(frame);
+    }
+  }
+  PtyBus bus_{""};
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+TEST(SlcanBus, CarriesFramesOfAllKindsThereAndBack) {
+  LiveAdapter adapter;
+  SlcanBus bus(adapter.bus().path(), 1000);
+  RandomBytes random(4);
+  for (int i = 0; i < 2000; ++i) {
+    const CanFrame frame = random.frame();
+    ASSERT_TRUE(bus.send(frame));
+    CanFrame back;
+    for (int tries = 0; !bus.receive(back); ++tries) {
+      ASSERT_LT(tries, 100);
+      bus.waitReadable(milliseconds(50));
+    }
+    ASSERT_EQ(back, frame);
+  }
+  EXPECT_EQ(bus.counters().sent, 2000);
+  EXPECT_EQ(bus.counters().received, 2000);
+  EXPECT_EQ(bus.counters().malformed, 0);
+  EXPECT_TRUE(bus.isUp());
+}
+
+TEST(SlcanBus, RefusesASecondMasterOnTheSameDevice) {
+  LiveAdapter adapter;
+  SlcanBus bus(adapter.bus().path(), 1000);
+  EXPECT_THAT(errorOf([&] { SlcanBus second(adapter.bus().path(), 1000); }),
+              HasSubstr("is in use by another process. End that one first"));
+}
+
+TEST(SlcanBus, SaysWhatIsWrongWithADevice) {
+  EXPECT_THAT(errorOf([] { SlcanBus bus("/no/such/tty", 1000); }),
+              HasSubstr("/no/such/tty: cannot be opened: No such file or directory. Is the adapter "
+                        "plugged in"));
+  EXPECT_THAT(errorOf([] { SlcanBus bus("/dev/null", 1000); }), HasSubstr("is no serial device"));
+  EXPECT_THAT(errorOf([] { SlcanBus bus("/dev/null", 123); }),
+              HasSubstr("123 kbit/s is no rate of slcan adapters; take 10,"));
+  PtyBus mute("");  // nobody answers
+  EXPECT_THAT(errorOf([&] { SlcanBus bus(mute.path(), 1000); }),
+              HasSubstr("no answer to 'C' within 1000 ms"));
+}
+
+TEST(SlcanBus, KnowsWhenTheDeviceIsGone) {
+  auto adapter = std::make_unique<LiveAdapter>();
+  SlcanBus bus(adapter->bus().path(), 1000);
+  adapter.reset();
+  CanFrame frame;
+  bus.receive(frame);
+  EXPECT_FALSE(bus.isUp());
+  EXPECT_FALSE(bus.send({1, false, false, 0, {}}));
+  EXPECT_EQ(bus.counters().refused, 1);
+}
+
+TEST(PtyBus, MakesALinkAndTakesItAway) {
+  const std::string link = ::testing::TempDir() + "ballbot_pty_" + std::to_string(::getpid());
+  {
+    PtyBus bus(link);
+    EXPECT_EQ(bus.path(), link);
+    EXPECT_EQ(::access(link.c_str(), R_OK | W_OK), 0);
+  }
+  EXPECT_NE(::access(link.c_str(), F_OK), 0);
+  EXPECT_THAT(errorOf([] { PtyBus bus("/dev/null"); }), HasSubstr("is no symbolic link"));
+}
+
+TEST(OpenCanBus, NamesTheTwoKinds) {
+  EXPECT_THAT(errorOf([] { openCanBus("can0", 1000); }),
+              HasSubstr("CAN bus 'can0' must be slcan:DEVICE"));
+  EXPECT_THAT(errorOf([] { openCanBus("slcan:", 1000); }), HasSubstr("or socketcan:INTERFACE"));
+}
+
+}  // namespace
+}  // namespace ballbot
