@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/angle.hpp"
 #include "experiment/loop_analysis.hpp"
 #include "experiment/text_file.hpp"
 #include "tools/bode_figure.hpp"
@@ -13,8 +14,6 @@
 namespace ballbot {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-constexpr double kDegPerRad = 57.295779513082320877;
 /// Frequencies of the printed table [Hz].
 constexpr double kTableHz[] = {0.1, 0.5, 1, 2, 5, 10, 20, 40, 60, 100, 200};
 
@@ -26,7 +25,6 @@ struct BodeArguments {
   bool json = false;
 };
 
-double decibel(std::complex<double> z) { return 20 * std::log10(std::abs(z)); }
 double degrees(std::complex<double> z) { return kDegPerRad * std::arg(z); }
 
 nlohmann::ordered_json marginsJson(const LoopMargins& m) {

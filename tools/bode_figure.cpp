@@ -5,13 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "core/angle.hpp"
 #include "report/svg_figure.hpp"
 
 namespace ballbot {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-constexpr double kDegPerRad = 57.295779513082320877;
 constexpr double kLowestGain = 1e-3;  ///< below, a loop gain says nothing
 constexpr double kFar = 3;            ///< beyond, nobody asks for the distance to instability
 
@@ -35,9 +34,9 @@ SvgSeries phase(const std::string& name, int colour, bool dashed, const LoopAnal
   return out;
 }
 
-double decibel(std::complex<double> z) { return 20 * std::log10(std::abs(z)); }
-
 }  // namespace
+
+double decibel(std::complex<double> gain) { return 20 * std::log10(std::abs(gain)); }
 
 std::string bodeFigure(const std::string& scenario_name, const LoopAnalysis& a) {
   const std::string frequency = "frequency [Hz]";
