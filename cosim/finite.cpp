@@ -54,7 +54,8 @@ std::string firstNonFinite(const SensorFrame& sensors) {
          namesJoint("joint velocity", sensors.joint_velocity, text) ||
          namesJoint("joint torque", sensors.joint_torque, text) ||
          namesAxis("specific force", sensors.accel_B, text) ||
-         namesAxis("angular velocity", sensors.gyro_WB_B, text));
+         namesAxis("angular velocity", sensors.gyro_WB_B, text) ||
+         namesAxis("external pose", sensors.pose_W, text));
   return text;
 }
 

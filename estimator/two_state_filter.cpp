@@ -56,7 +56,13 @@ void TwoStateFilter::takeImu(const SensorFrame& frame) noexcept {
     return;
   }
   if (!running_) {
-    if (!released_ || alignment_.samples() == 0) align(frame);
+    if (!released_ || alignment_.samples() == 0) {
+      const bool accel_ok = accel_gate_.accepts(frame.accel_B);
+      const bool gyro_ok = gyro_gate_.accepts(frame.gyro_WB_B);
+      if (!accel_ok) counts_.add(Rejection::kAccelSpike);
+      if (!gyro_ok) counts_.add(Rejection::kGyroSpike);
+      if (accel_ok && gyro_ok) align(frame);
+    }
     if (!released_) return;
     release();
     if (frame.imu_time <= time_) return;

@@ -9,6 +9,7 @@
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/text_file.hpp"
 #include "experiment/verdict.hpp"
+#include "plant/faults.hpp"
 #include "report/write_report.hpp"
 
 namespace ballbot {
@@ -139,6 +140,10 @@ void writeEstimateReport(const Scenario& scenario, const LogEstimate& e,
   if (scenario.release > kSimStart) {
     data.phases.push_back(
         {ReportPhase::Kind::kHold, 0, toSeconds(scenario.release), "held in the stand"});
+  }
+  for (const Fault& fault : scheduledFaults(scenario.tree)) {
+    data.phases.push_back({ReportPhase::Kind::kFault, toSeconds(fault.start),
+                           toSeconds(fault.end()), toText(fault)});
   }
   for (const auto& [key, value] : buildInfo()) data.manifest.push_back({key, value});
   data.documents = {{"estimator", toYaml(scenario.section("estimator"))}};

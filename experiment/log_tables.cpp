@@ -80,6 +80,11 @@ std::vector<LogTable> logTables(const RunLog& log) {
       .add("imu_time", "s", [](const sensor_frame& m) { return 1e-9 * static_cast<double>(m.imu_time_ns); })
       .addVector("accel_B", "m/s^2", [](const sensor_frame& m) { return m.accel_B; })
       .addVector("gyro_WB_B", "rad/s", [](const sensor_frame& m) { return m.gyro_WB_B; })
+      .add("pose_count", "", [](const sensor_frame& m) { return m.pose_count; })
+      .add("pose_time", "s", [](const sensor_frame& m) { return 1e-9 * static_cast<double>(m.pose_time_ns); })
+      .add("pose_x", "m", [](const sensor_frame& m) { return m.pose_W[0]; })
+      .add("pose_y", "m", [](const sensor_frame& m) { return m.pose_W[1]; })
+      .add("pose_yaw", "rad", [](const sensor_frame& m) { return m.pose_W[2]; })
       .into(tables);
   TableBuilder<truth_frame>("truth", log.truth)
       .addState([](const truth_frame& m) { return m.q; }, [](const truth_frame& m) { return m.nu; })

@@ -16,6 +16,7 @@
 #include "metrics/balance_metrics.hpp"
 #include "model/robot_reader.hpp"
 #include "plant/environment.hpp"
+#include "plant/faults.hpp"
 #include "report/write_report.hpp"
 
 namespace ballbot {
@@ -152,6 +153,9 @@ std::vector<ReportPhase> phasesOf(const Scenario& scenario, const std::vector<Pu
   for (const Push& push : pushes) {
     phases.push_back({ReportPhase::Kind::kPush, toSeconds(push.start), toSeconds(push.start + push.duration),
                       fmt::format("push {:.0f} N", push.force_W.norm())});
+  }
+  for (const Fault& fault : scheduledFaults(scenario.tree)) {
+    phases.push_back({ReportPhase::Kind::kFault, toSeconds(fault.start), toSeconds(fault.end()), toText(fault)});
   }
   return phases;
 }

@@ -31,6 +31,9 @@ void toMessage(const SensorFrame& frame, std::int64_t tick, ballbot_msgs::sensor
   out.imu_time_ns = toNs(frame.imu_time);
   copyTo(frame.accel_B, out.accel_B);
   copyTo(frame.gyro_WB_B, out.gyro_WB_B);
+  out.pose_count = frame.pose_count;
+  out.pose_time_ns = toNs(frame.pose_time);
+  copyTo(frame.pose_W, out.pose_W);
 }
 
 void fromMessage(const ballbot_msgs::sensor_frame& message, SensorFrame& out) {
@@ -43,6 +46,9 @@ void fromMessage(const ballbot_msgs::sensor_frame& message, SensorFrame& out) {
   out.imu_time = simTimeFromNs(message.imu_time_ns);
   copyFrom(message.accel_B, out.accel_B);
   copyFrom(message.gyro_WB_B, out.gyro_WB_B);
+  out.pose_count = message.pose_count;
+  out.pose_time = simTimeFromNs(message.pose_time_ns);
+  copyFrom(message.pose_W, out.pose_W);
 }
 
 void toMessage(const ActuatorCommand& command, std::int64_t tick, SimTime time,

@@ -60,6 +60,7 @@ class Plant::Impl {
         form_(stateForm(config)),
         ideal_actuators_(config.fidelity.actuators == ActuatorLevel::kIdeal),
         environment_(config.pushes),
+        motion_capture_(config.motion_capture, config.seed),
         faults_(config.faults, config.sensors, config.seed),
         dynamics_(config),
         rk4_(dynamics_.dim()),
@@ -78,6 +79,8 @@ class Plant::Impl {
     s.yaw = config_.initial.pose.yaw;
     const BaseMotion base = dynamics_.multibody().base();
     s.imu.sample(start, dynamics_.specificForce(base, BaseAcceleration{}), Vector3::Zero());
+    motion_capture_.reset(start);
+    motion_capture_.take({base.p_WK.x(), base.p_WK.y(), s.yaw});
     faults_.reset();
     meetFaults(dynamics_.multibody().joints());
     observe();
@@ -105,6 +108,7 @@ class Plant::Impl {
     StateSaver saver(out);
     visitState(state_, dynamics_.actuators(), saver);
     FaultInjector::visitState(faults_, saver);
+    MotionCapture::visitState(motion_capture_, saver);
     return out.seal("plant", kBlobVersion);
   }
 
@@ -122,8 +126,11 @@ class Plant::Impl {
     visitState(restored, actuators, loader);
     FaultInjector faults = faults_;
     FaultInjector::visitState(faults, loader);
+    MotionCapture capture = motion_capture_;
+    MotionCapture::visitState(capture, loader);
     in.finish();
     faults_ = std::move(faults);
+    motion_capture_ = std::move(capture);
     state_ = std::move(restored);
     dynamics_.actuators() = std::move(actuators);
     dynamics_.multibody().realize(state_.y.data());
@@ -134,6 +141,7 @@ class Plant::Impl {
     hasher_.clear();
     visitState(state_, dynamics_.actuators(), hasher_);
     FaultInjector::visitState(faults_, hasher_);
+    MotionCapture::visitState(motion_capture_, hasher_);
     return hasher_.hash();
   }
 
@@ -181,6 +189,9 @@ class Plant::Impl {
     SimTime next = std::min({end, nextMultiple(now, config_.drive_period),
                              nextMultiple(now, config_.sensors.imu.period),
                              nextMultiple(now, config_.substep), environment_.nextChange(now), faults_.nextChange(now)});
+    if (motion_capture_.present()) {
+      next = std::min(next, nextMultiple(now, motion_capture_.period()));
+    }
     if (config_.initial.release > now) next = std::min(next, config_.initial.release);
     return next;
   }
@@ -227,6 +238,10 @@ class Plant::Impl {
       rate.setZero();
     }
     if (isMultiple(s.now, config_.drive_period)) s.drives.sense(robot.joints());
+    if (motion_capture_.present() && isMultiple(s.now, motion_capture_.period())) {
+      const Vector3 p_WK = robot.base().p_WK;
+      motion_capture_.take({p_WK.x(), p_WK.y(), s.yaw});
+    }
     meetFaults(robot.joints());
   }
 
@@ -262,6 +277,7 @@ class Plant::Impl {
     f.imu_time = imu.time;
     f.accel_B = imu.accel_B;
     f.gyro_WB_B = imu.gyro_WB_B;
+    if (motion_capture_.present()) motion_capture_.report(state_.now, f);
     if (faults_.any()) faults_.apply(state_.now, f);
   }
 
@@ -295,6 +311,7 @@ class Plant::Impl {
   std::string form_;
   bool ideal_actuators_;
   Environment environment_;
+  MotionCapture motion_capture_;
   FaultInjector faults_;
   PlantDynamics dynamics_;
   RungeKutta4 rk4_;

@@ -47,6 +47,9 @@ void readPlantSection(ConfigReader in, PlantConfig& c) {
   c.leak_compensation = in.booleanOr("leak_compensation", c.leak_compensation);
   const auto offset = in.numbersOr<3>("base_com_offset_m", {0, 0, 0}, {-0.1, 0.1});
   c.robot.base.p_LLcm_L += Vector3(offset[0], offset[1], offset[2]);
+  if (in.has("motion_capture")) {
+    c.motion_capture = MotionCaptureParameters::read(in.child("motion_capture"));
+  }
   c.faults = readFaults(in);
   for (const Fault& fault : c.faults) {
     if (fault.kind == Fault::Kind::kWheelSlip && c.fidelity.multibody != MultibodyStructure::kFull) {

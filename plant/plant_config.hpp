@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/time.hpp"
 #include "model/robot_parameters.hpp"
 #include "model/robot_reader.hpp"
 #include "plant/environment.hpp"
 #include "plant/faults.hpp"
+#include "plant/motion_capture.hpp"
 #include "plant/multibody.hpp"
 #include "plant/sensors.hpp"
 #include "plant/surroundings.hpp"
@@ -61,6 +63,7 @@ struct PlantConfig {
   std::vector<Push> pushes;
   std::vector<Fault> faults;
   SurroundingsParameters surroundings;
+  std::optional<MotionCaptureParameters> motion_capture;
   std::uint64_t seed = 1;
 };
 

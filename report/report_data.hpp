@@ -65,7 +65,7 @@ struct PlotGroup {
 
 /// A stretch of time shaded in every plot.
 struct ReportPhase {
-  enum class Kind { kPush, kContact, kHold };
+  enum class Kind { kPush, kContact, kHold, kFault };
   Kind kind = Kind::kPush;
   double start_s = 0, end_s = 0;
   std::string label;  ///< e.g. "20 N along y"

@@ -38,6 +38,8 @@ const char* toText(ReportPhase::Kind kind) {
       return "contact";
     case ReportPhase::Kind::kHold:
       return "hold";
+    case ReportPhase::Kind::kFault:
+      return "fault";
   }
   return "push";
 }

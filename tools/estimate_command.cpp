@@ -47,8 +47,9 @@ Sources sourcesOf(const EstimateArguments& a) {
 
 nlohmann::ordered_json toJson(const LogEstimate& e) {
   nlohmann::ordered_json out;
-  for (const auto& [name, value] : e.metrics) {
-    if (name.rfind("rejected_", 0) != 0) out[name] = value;
+  for (const std::string& name : EstimationErrors::names()) {
+    const auto it = e.metrics.find(name);  // null where the log says nothing about it
+    out[name] = it == e.metrics.end() ? nlohmann::ordered_json() : nlohmann::ordered_json(it->second);
   }
   out["rejected"] = nlohmann::ordered_json::object();
   for (const auto& [reason, count] : rejectionsAmong(e.metrics)) out["rejected"][reason] = count;

@@ -181,6 +181,23 @@ TEST(TwoStateFilter, PassesOverSpikesOfAHundredSigma) {
   EXPECT_LT(e.velocity_rms, 3e-3);
 }
 
+TEST(TwoStateFilter, AlignsOnARestWithSpikes) {
+  const RobotParameters robot = estimatorTestRobot();
+  SimulatedSensors sensors(standingStill(), robot, whiteNoise(), 4);
+  TwoStateFilter filter(robot, {});
+  int spikes = 0;
+  while (sensors.truth().t_s < 0.45) {
+    sensors.advance();
+    SensorFrame f = sensors.frame();
+    if (f.imu_count % 20 == 0) f.gyro_WB_B.y() += 0.24, f.accel_B.x() -= 2.4, ++spikes;
+    filter.update(f, true);
+  }
+  EXPECT_EQ(filter.rejections()[Rejection::kGyroSpike], spikes);
+  EXPECT_EQ(filter.rejections()[Rejection::kAccelSpike], spikes);
+  // Noise of 2.4e-3 rad/s averaged over 171 samples, four sigma; the spikes' mean would be 0.012.
+  EXPECT_LT((filter.state().gyro_bias - sensors.truth().gyro_bias).cwiseAbs().maxCoeff(), 8e-4);
+}
+
 TEST(TwoStateFilter, ToleratesAWheelThatSlips) {
   for (const double slip_rad_per_s : {0.4, 3.0, 12.0}) {
     FilterRun run;

@@ -46,6 +46,9 @@ TEST(Convert, ASensorFrameKeepsEveryBit) {
   fill(frame.joint_torque, i);
   fill(frame.accel_B, i);
   fill(frame.gyro_WB_B, i);
+  fill(frame.pose_W, i);
+  frame.pose_count = 3;
+  frame.pose_time = simTimeFromNs(11);
   frame.time = simTimeFromNs(1'234'567'891);
   frame.imu_count = 7;
   frame.imu_time = simTimeFromNs(-5);
@@ -64,6 +67,9 @@ TEST(Convert, ASensorFrameKeepsEveryBit) {
   EXPECT_TRUE(sameBits(back.joint_torque, frame.joint_torque));
   EXPECT_TRUE(sameBits(back.accel_B, frame.accel_B));
   EXPECT_TRUE(sameBits(back.gyro_WB_B, frame.gyro_WB_B));
+  EXPECT_EQ(back.pose_count, 3);
+  EXPECT_EQ(back.pose_time, frame.pose_time);
+  EXPECT_TRUE(sameBits(back.pose_W, frame.pose_W));
 }
 
 TEST(Convert, AnActuatorCommandKeepsEveryBit) {

@@ -269,7 +269,7 @@ for (const colorScheme of ['light', 'dark']) {
     }
     const readable = [['text', 'card'], ['text', 'page'], ['muted', 'card'], ['accent', 'card'],
       ['on-accent', 'accent'], ['passed', 'passed-ground'], ['failed', 'failed-ground'], ['failed', 'card'],
-      ['push-ink', 'card'], ['contact-ink', 'card'], ['hold-ink', 'card']];
+      ['push-ink', 'card'], ['contact-ink', 'card'], ['hold-ink', 'card'], ['fault-ink', 'card']];
     for (const [a, b] of readable) assert.ok(contrast(colour[a], colour[b]) >= 4.5, `${a} on ${b}`);
     const lines = Object.keys(colour).filter((name) => name.startsWith('series-'));
     assert.equal(lines.length, 12);

@@ -8,7 +8,7 @@ export interface Theme {
   axis: string;
   limit: string;
   series: { plain: string[]; strong: string[] }; // by channel
-  phase: Record<'push' | 'contact' | 'hold', { fill: string; ink: string }>;
+  phase: Record<'push' | 'contact' | 'hold' | 'fault', { fill: string; ink: string }>;
   scene: { background: string; floor: string; line: string; strongLine: string };
 }
 
@@ -26,7 +26,7 @@ export function readTheme(): Theme {
     axis: colour('axis'),
     limit: colour('limit'),
     series: { plain: channels.map(colour), strong: channels.map((c) => colour(`${c}-strong`)) },
-    phase: { push: phase('push'), contact: phase('contact'), hold: phase('hold') },
+    phase: { push: phase('push'), contact: phase('contact'), hold: phase('hold'), fault: phase('fault') },
     scene: {
       background: colour('scene'),
       floor: colour('scene-floor'),

@@ -2,7 +2,7 @@
 // little-endian 32-bit floats; NaN is a gap. Times are listed once and referred to by index.
 
 export type Style = 'measured' | 'reference' | 'estimated' | 'commanded';
-export type PhaseKind = 'push' | 'contact' | 'hold';
+export type PhaseKind = 'push' | 'contact' | 'hold' | 'fault';
 
 export type TimesJson = { start: number; step: number; count: number } | { values: string };
 

@@ -3,7 +3,7 @@ import type { Phase } from '../data/format';
 import { element } from '../dom';
 import type { Theme } from '../theme';
 
-export const phaseNames = { push: 'Push', contact: 'Contact', hold: 'Hold' } as const;
+export const phaseNames = { push: 'Push', contact: 'Contact', hold: 'Hold', fault: 'Fault' } as const;
 
 // Shades the phases behind the lines of a plot.
 export function shadePhases(u: uPlot, phases: Phase[], theme: Theme): void {
