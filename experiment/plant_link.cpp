@@ -40,7 +40,7 @@ void PlantLink::start() {
   }
   LcmAddress address = options_.address;
   if (address.url.empty()) {
-    address = privateLcmAddress();
+    address = options_.shared ? sharedLcmAddress() : privateLcmAddress();
     child_ = std::make_unique<ChildProcess>(
         "plant",
         std::vector<std::string>{"plant", folder_.scenarioFile(), "--lcm-url", address.url, "--channel",

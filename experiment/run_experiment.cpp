@@ -89,6 +89,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   if (core >= 0) pinToCore(core);
   PlantLink::Options link;
   link.in_process = options.in_process;
+  link.shared = options.live;
   link.address = {options.lcm_url, options.channel};
   link.core = core;
   link.patience = options.patience;

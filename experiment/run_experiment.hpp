@@ -18,6 +18,8 @@ namespace ballbot {
 struct RunOptions {
   /// Controller and plant in one process, joined by a function call; same bits, no LCM.
   bool in_process = false;
+  /// The plant's process is met on the shared LCM address, where others can listen.
+  bool live = false;
   /// Empty: a plant process is started and met on an address of its own. Otherwise whoever serves
   /// at this LCM URL and channel stands in the plant's place.
   std::string lcm_url, channel;

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   addControllerCommand(program, result);
   addRelayCommand(program, result);
   addBodeCommand(program, result);
+  addViewCommand(program, result);
   addDoctorCommand(program, result);
 
   try {

@@ -17,6 +17,7 @@ void addRelayCommand(CLI::App& program, ExitCode& result);
 void addExportCommand(CLI::App& program, ExitCode& result);
 void addEstimateCommand(CLI::App& program, ExitCode& result);
 void addBodeCommand(CLI::App& program, ExitCode& result);
+void addViewCommand(CLI::App& program, ExitCode& result);
 void addDoctorCommand(CLI::App& program, ExitCode& result);
 
 }  // namespace ballbot

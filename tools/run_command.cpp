@@ -23,7 +23,7 @@ struct RunArguments {
   std::string lcm_url, channel = "BALLBOT";
   std::vector<std::string> overrides;
   std::optional<std::uint64_t> seed;
-  bool in_process = false, no_pin = false, no_report = false, json = false, quiet = false;
+  bool live = false, in_process = false, no_pin = false, no_report = false, json = false, quiet = false;
   double replace_plant_at_s = -1;
   double patience_s = 10;
 };
@@ -37,6 +37,7 @@ ExitCode runScenario(const RunArguments& arguments) {
   options.lcm_url = arguments.lcm_url;
   options.channel = arguments.channel;
   options.pin = !arguments.no_pin;
+  options.live = arguments.live;
   options.write_report = !arguments.no_report;
   if (arguments.replace_plant_at_s >= 0) {
     options.replace_plant_at = kSimStart + durationFromSeconds(arguments.replace_plant_at_s);
@@ -101,6 +102,7 @@ void addRunCommand(CLI::App& program, ExitCode& result) {
   command->add_flag("--in-process", a->in_process, "Controller and plant in one process; same bits, no LCM");
   command->add_option("--lcm-url", a->lcm_url,
                       "Do not start a plant: meet whoever serves at this LCM URL, e.g. ballbot plant");
+  command->add_flag("--live", a->live, "Meet the plant where ballbot view --live listens");
   command->add_option("--replace-plant-at", a->replace_plant_at_s,
                       "At this time [s] save the plant, kill its process, continue in a new one");
   command->footer(

@@ -1,5 +1,5 @@
-// Usage: node build.mjs OUT.html
-// Bundles src/ into one HTML page without data: styles and program inline, nothing fetched later.
+// Usage: node build.mjs NAME OUT.html
+// Bundles src/NAME.ts and src/NAME.html into one HTML page: styles and program inline.
 // The same sources give the same bytes.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -7,9 +7,9 @@ import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
 
 const folder = dirname(dirname(fileURLToPath(import.meta.url)));
-const out = process.argv[2];
+const [name, out] = process.argv.slice(2);
 if (!out) {
-  console.error('Usage: node build.mjs OUT.html');
+  console.error('Usage: node build.mjs NAME OUT.html');
   process.exit(2);
 }
 
@@ -29,18 +29,18 @@ async function bundle(entry, options) {
 }
 
 // A URDF's meshes are files beside it, which a single page does not have: their reader stays out.
-const script = await bundle('src/main.ts', {
+const script = await bundle(`src/${name}.ts`, {
   format: 'iife',
   target: ['es2020'],
   alias: { 'three/examples/jsm/loaders/ColladaLoader.js': './src/replay/no_mesh_reader.ts' },
 });
 const style = await bundle('src/style/page.css', { target: ['chrome100', 'firefox100', 'safari15'] });
 
-function notice(name) {
-  const path = join(folder, 'node_modules', name);
+function notice(library) {
+  const path = join(folder, 'node_modules', library);
   const about = JSON.parse(readFileSync(join(path, 'package.json'), 'utf8'));
   const author = typeof about.author === 'string' ? about.author : about.author?.name;
-  const head = `${name} ${about.version}, ${about.license}, by ${author ?? 'its authors'}`;
+  const head = `${library} ${about.version}, ${about.license}, by ${author ?? 'its authors'}`;
   if (about.license !== 'MIT') return `${head}. Licence: https://www.apache.org/licenses/LICENSE-2.0`;
   return `${head}\n${readFileSync(join(path, 'LICENSE'), 'utf8').trim()}`;
 }
@@ -51,9 +51,9 @@ const parts = {
   '/*program*/': script.replace(/<\/script/gi, '<\\/script'),
   '<!--notices-->': `<!--\nThis page contains:\n\n${notices}\n-->`,
 };
-let page = readFileSync(join(folder, 'src/page.html'), 'utf8');
+let page = readFileSync(join(folder, `src/${name}.html`), 'utf8');
 for (const [mark, text] of Object.entries(parts)) {
-  if (page.split(mark).length !== 2) throw new Error(`src/page.html must contain ${mark} once`);
+  if (page.split(mark).length !== 2) throw new Error(`src/${name}.html must contain ${mark} once`);
   page = page.replace(mark, () => text);
 }
 writeFileSync(out, page);

@@ -1,8 +1,8 @@
-// Usage: node embed.mjs PAGE.html OUT.cpp
-// Turns the page into a C++ source that defines ballbot::pageTemplate().
+// Usage: node embed.mjs PAGE.html FUNCTION OUT.cpp
+// Turns the page into a C++ source that defines ballbot::FUNCTION().
 import { readFileSync, writeFileSync } from 'node:fs';
 
-const [page, out] = process.argv.slice(2);
+const [page, name, out] = process.argv.slice(2);
 
 // Every byte outside printable ASCII is written as three octal digits, which end by themselves.
 function literal(bytes) {
@@ -22,12 +22,12 @@ for (let i = 0; i < bytes.length; i += lineLength) {
 }
 writeFileSync(
   out,
-  `// Made by viewer/scripts/embed.mjs from the report page.
+  `// Made by viewer/scripts/embed.mjs from a page of viewer/.
 #include "report/page_template.hpp"
 
 namespace ballbot {
 
-const std::string& pageTemplate() {
+const std::string& ${name}() {
   static const char text[] =
 ${lines.join('\n')};
   static const std::string page(text, sizeof text - 1);

@@ -35,8 +35,12 @@ export interface ReplayPanel {
   view: ReplayView | null; // nothing without WebGL 2
 }
 
-// The 3-D view with what switches it.
-export function replayPanel(replay: Replay, timeline: Timeline): ReplayPanel {
+// The 3-D view with what switches it. A layer that is not offered has no switch.
+export function replayPanel(
+  replay: Replay,
+  timeline: Timeline,
+  offered: Partial<Record<Layer, boolean>> = {},
+): ReplayPanel {
   let view: ReplayView;
   try {
     view = new ReplayView(replay, timeline);
@@ -66,7 +70,7 @@ export function replayPanel(replay: Replay, timeline: Timeline): ReplayPanel {
     { class: 'scene-tools' },
     toggle('Follow', 'The camera moves with the robot', (on) => view.setFollowing(on)),
     ...layers
-      .filter(({ has }) => has(replay))
+      .filter(({ layer, has }) => has(replay) && offered[layer] !== false)
       .map(({ layer, name }) => toggle(name, `Show ${name.toLowerCase()}`, (on) => view.showLayer(layer, on))),
     camera,
     expand,

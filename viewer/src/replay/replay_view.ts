@@ -121,6 +121,11 @@ export class ReplayView {
     for (const { trace } of this.traces) this.layers.traces.add(...trace.objects);
   }
 
+  // Shows what the replay holds now, after it was written to.
+  refresh(): void {
+    this.showTime();
+  }
+
   private showTime(): void {
     const at = bracket(this.replay.t, this.timeline.time);
     this.robot.show(at);

@@ -1,0 +1,122 @@
+#include "experiment/live_scene.hpp"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/config_reader.hpp"
+#include "experiment/contact_report.hpp"
+#include "experiment/run_replay.hpp"
+#include "experiment/text_file.hpp"
+#include "metrics/balance_metrics.hpp"
+#include "model/frames.hpp"
+#include "model/omniwheel_kinematics.hpp"
+#include "model/robot_reader.hpp"
+
+namespace ballbot {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kDegPerRad = 57.295779513082320877;
+
+RobotParameters robotOf(const Scenario& scenario) {
+  ConfigReader in(scenario.section("robot"), "robot");
+  return readRobot(in);
+}
+
+ReportReplay replayOf(const ballbot_msgs::truth_frame& truth, const RobotParameters& robot,
+                      const std::vector<Push>& pushes, const EeReference& reference,
+                      const SurroundingsParameters& surroundings) {
+  RunLog log;
+  log.truth.push_back(truth);
+  ReportReplay replay = makeReplay(log, robot, pushes, reference);
+  replay.objects = replayObjects(log, surroundings);
+  if (replay.forces.size() == pushes.size()) {  // nothing touched just now
+    replay.forces.push_back({"contact", ReportPhase::Kind::kContact, {{0, 0, 0}}, {{0, 0, 0}}});
+  }
+  return replay;
+}
+
+void append(Json& out, const ReplayPose& pose) {
+  for (const double v : pose.p_W) out.push_back(v);
+  for (const double v : pose.quat_W) out.push_back(v);
+}
+
+const char* nameOf(SeriesStyle style) {
+  return style == SeriesStyle::kReference ? "reference" : "measured";
+}
+
+}  // namespace
+
+LiveScene::LiveScene(const Scenario& scenario)
+    : scenario_(scenario),
+      robot_(robotOf(scenario)),
+      reference_(readEeReference(scenario)),
+      pushes_(scheduledPushes(scenario.tree)),
+      surroundings_(surroundingsOf(scenario.tree)) {}
+
+std::string LiveScene::description() const {
+  const ReportReplay replay = replayOf({}, robot_, pushes_, reference_, surroundings_);
+  Json out = {{"title", scenario_.name},
+              {"subtitle", scenario_.summary},
+              {"duration", toSeconds(scenario_.duration)},
+              {"urdf", readTextFile(scenario_.urdf_path)},
+              {"followed_link", replay.followed_link}};
+  for (const auto& body : replay.bodies) out["bodies"].push_back(body.link);
+  for (const auto& joint : replay.joints) out["joints"].push_back(joint.name);
+  for (const auto& frame : replay.frames) {
+    out["frames"].push_back({{"name", frame.name}, {"style", nameOf(frame.style)}});
+  }
+  for (const auto& force : replay.forces) {
+    out["forces"].push_back(
+        {{"name", force.name}, {"kind", force.kind == ReportPhase::Kind::kPush ? "push" : "contact"}});
+  }
+  out["objects"] = Json::array();
+  for (const auto& object : replay.objects) {
+    out["objects"].push_back({{"name", object.name}, {"size", object.box_size}});
+  }
+  out["plots"] = {{{"quantity", "ball position"}, {"unit", "m"}, {"series", {"x", "y"}}},
+                  {{"quantity", "tilt"}, {"unit", "deg"}, {"series", {"tilt"}}},
+                  {{"quantity", "force"}, {"unit", "N"}, {"series", {"pushes", "contact"}}}};
+  return out.dump();
+}
+
+std::string LiveScene::frame(const ballbot_msgs::truth_frame& truth) {
+  const double t = 1e-9 * static_cast<double>(truth.sim_time_ns);
+  if (!started_ || t < last_s_) ball_.setIdentity();  // the first frame, or another run
+  const double dt = started_ && t > last_s_ ? t - last_s_ : 0;
+  started_ = true;
+  last_s_ = t;
+  const Vector3 w =
+      OmniwheelKinematics::rollingAngularVelocity(truth.nu[0], truth.nu[1], robot_.ball.radius);
+  ball_ = (Eigen::Quaterniond(expSO3(w * dt)) * ball_).normalized();
+
+  ReportReplay replay = replayOf(truth, robot_, pushes_, reference_, surroundings_);
+  Json bodies = Json::array(), joints = Json::array(), frames = Json::array(),
+       points = Json::array(), forces = Json::array(), objects = Json::array();
+  for (auto& body : replay.bodies) {
+    if (body.link == "ball") {
+      body.poses.front().quat_W = {ball_.w(), ball_.x(), ball_.y(), ball_.z()};
+    }
+    append(bodies, body.poses.front());
+  }
+  for (const auto& joint : replay.joints) joints.push_back(joint.angle.front());
+  for (const auto& frame : replay.frames) append(frames, frame.poses.front());
+  for (const auto& force : replay.forces) {
+    for (const double v : force.point_W.front()) points.push_back(v);
+    for (const double v : force.force_W.front()) forces.push_back(v);
+  }
+  for (const auto& object : replay.objects) append(objects, object.poses.front());
+
+  StateVector x;
+  x << Eigen::Map<const PositionVector>(truth.q), Eigen::Map<const VelocityVector>(truth.nu);
+  const double pushed = Eigen::Map<const Vector3>(truth.external_force_W).norm();
+  const double contact = Eigen::Map<const Vector3>(truth.contact_force_W).norm();
+  const Json values = {{truth.q[0], truth.q[1]}, {kDegPerRad * tiltAngle(x)}, {pushed, contact}};
+  return Json{{"t", t},           {"bodies", bodies}, {"joints", joints}, {"frames", frames},
+              {"points", points}, {"forces", forces}, {"objects", objects}, {"values", values}}
+      .dump();
+}
+
+}  // namespace ballbot
