@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/angle.hpp"
 #include "core/error.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/robot_sensing.hpp"
@@ -10,8 +11,6 @@
 
 namespace ballbot {
 namespace {
-
-constexpr double kDegPerRad = 57.295779513082320877;
 
 /// One row per estimate, in the units people read.
 class ErrorTable {
