@@ -1,11 +1,10 @@
 #include "estimator/two_state_settings.hpp"
 
+#include "core/angle.hpp"
 #include "core/config_reader.hpp"
 
 namespace ballbot {
 namespace {
-
-constexpr double kDeg = 3.14159265358979323846 / 180;
 
 void readNoise(ConfigReader in, FilterNoise& n) {
   n.gyro_density = in.numberOr("gyro_rad_per_s_per_sqrt_Hz", n.gyro_density, {1e-7, 1});
@@ -26,8 +25,8 @@ void readNoise(ConfigReader in, FilterNoise& n) {
 
 void readInitial(ConfigReader in, InitialUncertainty& u) {
   u.position = in.numberOr("position_m", u.position, {1e-6, 10});
-  u.yaw = kDeg * in.numberOr("yaw_deg", u.yaw / kDeg, {1e-4, 180});
-  u.tilt = kDeg * in.numberOr("tilt_deg", u.tilt / kDeg, {0.01, 45});
+  u.yaw = kRadPerDeg * in.numberOr("yaw_deg", u.yaw / kRadPerDeg, {1e-4, 180});
+  u.tilt = kRadPerDeg * in.numberOr("tilt_deg", u.tilt / kRadPerDeg, {0.01, 45});
   u.velocity_at_rest = in.numberOr("velocity_at_rest_m_per_s", u.velocity_at_rest, {1e-5, 10});
   u.omega_at_rest = in.numberOr("omega_at_rest_rad_per_s", u.omega_at_rest, {1e-5, 10});
   u.velocity_unknown = in.numberOr("velocity_unknown_m_per_s", u.velocity_unknown, {1e-3, 10});
@@ -49,7 +48,7 @@ void readGate(ConfigReader in, GateSettings& g) {
 
 void readPose(ConfigReader in, ExternalPoseSettings& p) {
   p.position_sigma_m = in.numberOr("position_sigma_m", p.position_sigma_m, {1e-5, 10});
-  p.yaw_sigma_rad = kDeg * in.numberOr("yaw_sigma_deg", p.yaw_sigma_rad / kDeg, {1e-3, 180});
+  p.yaw_sigma_rad = kRadPerDeg * in.numberOr("yaw_sigma_deg", p.yaw_sigma_rad / kRadPerDeg, {1e-3, 180});
   p.chi_square_limit = in.numberOr("chi_square_limit", p.chi_square_limit, {5, 1e12});
   in.finish();
 }
@@ -69,7 +68,7 @@ TwoStateSettings TwoStateSettings::read(ConfigReader& in) {
   s.alignment_samples = in.integerOr("alignment_samples", s.alignment_samples, {1, 1e6});
   s.imu_wait = in.durationOr("imu_wait_ms", s.imu_wait, {0, 15});
   const auto tilt = in.numbersOr<2>("initial_tilt_error_deg", {0, 0}, {-45, 45});
-  s.initial_tilt_error = kDeg * Eigen::Vector2d(tilt[0], tilt[1]);
+  s.initial_tilt_error = kRadPerDeg * Eigen::Vector2d(tilt[0], tilt[1]);
   return s;
 }
 

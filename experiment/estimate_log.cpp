@@ -1,26 +1,16 @@
 #include "experiment/estimate_log.hpp"
 
 #include <limits>
-#include <memory>
 
-#include "core/config_reader.hpp"
+#include "core/angle.hpp"
 #include "core/error.hpp"
-#include "estimator/estimator_factory.hpp"
 #include "experiment/rejection_metrics.hpp"
+#include "experiment/robot_sensing.hpp"
 #include "messages/convert.hpp"
 #include "messages/wire.hpp"
-#include "model/robot_reader.hpp"
 
 namespace ballbot {
 namespace {
-
-constexpr double kDegPerRad = 57.295779513082320877;
-
-std::unique_ptr<Estimator> estimatorOf(const Scenario& scenario) {
-  ConfigReader robot_in(scenario.section("robot"), "robot");
-  ConfigReader in(scenario.section("estimator"), "estimator");
-  return makeEstimator(in, readRobot(robot_in));
-}
 
 /// One row per estimate, in the units people read.
 class ErrorTable {
@@ -102,7 +92,7 @@ LogEstimate estimateLog(const Scenario& scenario, const RunLog& log) {
   if (log.sensors.empty()) {
     throw InputError("the log holds no sensor frames; was recording.sensors_period_ms negative?");
   }
-  const std::unique_ptr<Estimator> estimator = estimatorOf(scenario);
+  RobotSensing sensing(scenario);
   const SimDuration period = scenario.rates.estimator;
   EstimationErrors errors = makeEstimationErrors(scenario);
   ErrorTable table;
@@ -117,10 +107,9 @@ LogEstimate estimateLog(const Scenario& scenario, const RunLog& log) {
     const std::int64_t in_period = frame.time.time_since_epoch() / period;
     if (in_period <= last_period) continue;
     last_period = in_period;
-    estimator->update(frame, frame.time < scenario.release);
-    const StateEstimate estimate = estimator->estimate(frame.time);
+    sensing.update(frame);
     ballbot_msgs::state_estimate estimate_message{};
-    toMessage(frame.time, estimate.x, estimate.sigma, estimate.aligned, estimate_message);
+    sensing.write(frame.time, estimate_message);
     estimate_message.tick = message.tick;
     comparison.add(estimate_message, out);
     out.estimates.push_back(estimate_message);
@@ -133,13 +122,14 @@ LogEstimate estimateLog(const Scenario& scenario, const RunLog& log) {
     if (known) {
       TruthFrame truth;
       fromMessage(*truth_message, truth);
-      errors.add(truth, estimate.x);
-      if (const auto own = estimator->selfAssessment()) errors.addConsistency(*own);
+      errors.add(truth, stateOf(estimate_message));
+      if (const auto own = sensing.estimator().selfAssessment()) errors.addConsistency(*own);
     }
-    table.add(frame.time, known && errors.started() ? &errors.last() : nullptr, *estimator);
+    table.add(frame.time, known && errors.started() ? &errors.last() : nullptr,
+              sensing.estimator());
   }
   out.metrics = errors.values();
-  for (const auto& count : rejectionMetrics(estimator->rejections())) out.metrics.insert(count);
+  for (const auto& count : rejectionMetrics(sensing.estimator().rejections())) out.metrics.insert(count);
   out.errors = table.take();
   return out;
 }

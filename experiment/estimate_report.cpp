@@ -4,7 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "core/yaml_file.hpp"
+#include "core/angle.hpp"
+#include "core/config_node.hpp"
 #include "experiment/build_info.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/text_file.hpp"
@@ -15,7 +16,6 @@
 namespace ballbot {
 namespace {
 
-constexpr double kDegPerRad = 57.295779513082320877;
 /// Innovations are drawn as means over so many updates: single ones scatter over decades.
 constexpr std::size_t kInnovationWindow = 100;
 

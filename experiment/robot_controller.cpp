@@ -3,35 +3,21 @@
 #include "controller/law_factory.hpp"
 #include "controller/policy_sample_blob.hpp"
 #include "core/config_reader.hpp"
-#include "estimator/estimator_factory.hpp"
 #include "experiment/rejection_metrics.hpp"
-#include "messages/convert.hpp"
 #include "model/robot_reader.hpp"
 
 namespace ballbot {
-namespace {
-
-/// Of the contact force observer: slower than the arm's rate noise, faster than a slip [rad/s].
-constexpr double kContactForceBandwidth = 25;
-
-}  // namespace
 
 RobotController::RobotController(const Scenario& scenario, EventCalendar& calendar)
-    : release_(scenario.release),
-      tracker_period_(scenario.rates.tracker),
-      plan_latency_(scenario.rates.plan_latency) {
+    : tracker_period_(scenario.rates.tracker),
+      plan_latency_(scenario.rates.plan_latency),
+      sensing_(scenario) {
   ConfigReader robot_in(scenario.section("robot"), "robot");
   const RobotParameters robot = readRobot(robot_in);
 
-  ConfigReader estimator_in(scenario.section("estimator"), "estimator");
-  estimator_ = makeEstimator(estimator_in, robot);
-
-  // What the controller believes it carries; what it does carry stands in `environment`.
   ConfigReader in(scenario.section("controller"), "controller");
-  RobotParameters believed = robot;
-  believed.payload_mass = in.numberOr("known_payload_kg", robot.payload_mass, {0, 5});
-  law_ = makeControlLaw(in, believed);
-  contact_force_ = std::make_unique<ContactForceObserver>(believed, kContactForceBandwidth);
+  in.raw("known_payload_kg");  // read by believedRobot()
+  law_ = makeControlLaw(in, believedRobot(scenario));
   ConfigReader tracker_in = in.child("tracker");
   tracker_ = std::make_unique<PdTracker>(TrackerConfig::read(tracker_in, robot));
   tracker_in.finish();
@@ -51,17 +37,10 @@ void RobotController::onSensors(SimTime now, const SensorFrame& sensors, DueTask
   if (due.has(estimator_task_)) {
     // Frames in between are not its business: so the log, which keeps one frame per period of the
     // estimator, holds all that it ever saw.
-    estimator_->update(sensors, now < release_);
-    const StateEstimate estimate = estimator_->estimate(now);
-    if (now < release_) {
-      contact_force_->reset();  // the stand holds the arm, too
-    } else {
-      contact_force_->update(now, estimate.x, sensors.joint_torque);
-      law_->setContactForce(contact_force_->force());
-    }
+    sensing_.update(sensors);
+    law_->setContactForce(sensing_.contactForce());
     out.has_estimate = true;
-    toMessage(now, estimate.x, estimate.sigma, estimate.aligned, out.estimate);
-    Eigen::Map<Vector3>{out.estimate.contact_force_W} = contact_force_->force();
+    sensing_.write(now, out.estimate);
   }
   // A plan that has become old enough acts before a new one is begun.
   if (plan_pending_ && now >= pending_since_ + plan_latency_) {
@@ -75,7 +54,7 @@ void RobotController::onSensors(SimTime now, const SensorFrame& sensors, DueTask
 
 void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutput& out) {
   const std::int64_t started = wall_clock_ns_ ? wall_clock_ns_() : 0;
-  const PlanReport report = law_->plan(now, estimator_->estimate(now).x, sensors.joint_angle);
+  const PlanReport report = law_->plan(now, sensing_.estimate(now).x, sensors.joint_angle);
   if (wall_clock_ns_ && plan_times_ns_.size() < plan_times_ns_.capacity()) {
     plan_times_ns_.push_back(wall_clock_ns_() - started);
   }
@@ -105,7 +84,7 @@ void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutpu
 void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutput& out) {
   if (!has_policy_) return;
   law_->sample(now, policy_);
-  const StateVector x = estimator_->estimate(now).x;
+  const StateVector x = sensing_.estimate(now).x;
   switch (tracker_->step(policy_, x, sensors.joint_angle, sensors.joint_velocity, out.command)) {
     case TrackStatus::kOk: break;
     case TrackStatus::kTorqueSaturated: ++ticks_saturated_; break;
@@ -121,9 +100,8 @@ void RobotController::timePlans(std::function<std::int64_t()> wall_clock_ns, std
 
 StateBlob RobotController::saveState() const {
   BlobWriter out;
-  out.putBlob(estimator_->saveState());
+  sensing_.save(out);
   out.putBlob(law_->saveState());
-  contact_force_->save(out);
   putPolicySample(out, policy_);
   out.put(plan_pending_);
   out.put(has_policy_);
@@ -132,15 +110,14 @@ StateBlob RobotController::saveState() const {
   out.put(plans_refused_);
   out.put(ticks_saturated_);
   out.put(ticks_not_finite_);
-  return out.seal("controller", 2);
+  return out.seal("controller", 3);
 }
 
 void RobotController::restoreState(const StateBlob& blob) {
-  BlobReader in(blob, "controller", 2);
-  estimator_->restoreState(in.getBlob());
+  BlobReader in(blob, "controller", 3);
+  sensing_.restore(in);
   law_->restoreState(in.getBlob());
-  contact_force_->restore(in);
-  law_->setContactForce(contact_force_->force());
+  law_->setContactForce(sensing_.contactForce());
   getPolicySample(in, policy_);
   plan_pending_ = in.get<bool>();
   has_policy_ = in.get<bool>();
@@ -154,7 +131,7 @@ void RobotController::restoreState(const StateBlob& blob) {
 
 std::map<std::string, double> RobotController::counters() const {
   const auto number = [](std::int64_t n) { return static_cast<double>(n); };
-  std::map<std::string, double> out = rejectionMetrics(estimator_->rejections());
+  std::map<std::string, double> out = rejectionMetrics(sensing_.estimator().rejections());
   out["plans"] = number(plans_);
   out["plans_refused"] = number(plans_refused_);
   out["ticks_saturated"] = number(ticks_saturated_);

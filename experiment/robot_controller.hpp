@@ -11,8 +11,7 @@
 #include "controller/pd_tracker.hpp"
 #include "cosim/schedule.hpp"
 #include "cosim/stepped_controller.hpp"
-#include "estimator/contact_force_observer.hpp"
-#include "estimator/estimator.hpp"
+#include "experiment/robot_sensing.hpp"
 #include "experiment/scenario.hpp"
 
 namespace ballbot {
@@ -35,7 +34,7 @@ class RobotController final : public SteppedController {
   std::map<std::string, double> counters() const;
 
   /// For those who hold the estimator's own judgement against the truth.
-  const Estimator& estimator() const { return *estimator_; }
+  const Estimator& estimator() const { return sensing_.estimator(); }
 
   /// Measures the wall-clock time of each plan() call, up to `capacity` of them [ns]; a fact of the
   /// machine, never part of a result.
@@ -46,10 +45,8 @@ class RobotController final : public SteppedController {
   void plan(SimTime now, const SensorFrame& sensors, ControlOutput& out);
   void track(SimTime now, const SensorFrame& sensors, ControlOutput& out);
 
-  SimTime release_;
   SimDuration tracker_period_, plan_latency_;
-  std::unique_ptr<Estimator> estimator_;
-  std::unique_ptr<ContactForceObserver> contact_force_;
+  RobotSensing sensing_;
   std::unique_ptr<ControlLaw> law_;
   std::unique_ptr<PdTracker> tracker_;
   TaskId tracker_task_, estimator_task_, planner_task_;

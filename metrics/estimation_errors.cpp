@@ -6,13 +6,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "core/angle.hpp"
 #include "model/frames.hpp"
 
 namespace ballbot {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDeg = kPi / 180;
 /// Drift in percent of less than this says nothing [m].
 constexpr double kDistanceWorthDividingBy = 0.1;
 
@@ -70,10 +69,10 @@ void EstimationErrors::addConsistency(const SelfAssessment& assessment) {
 std::map<std::string, double> EstimationErrors::values() const {
   std::map<std::string, double> out;
   if (observed_s_ > 0) {
-    out["tilt_rms_deg"] = std::sqrt(tilt2_integral_ / observed_s_) / kDeg;
-    out["largest_tilt_error_deg"] = largest_tilt_ / kDeg;
+    out["tilt_rms_deg"] = std::sqrt(tilt2_integral_ / observed_s_) / kRadPerDeg;
+    out["largest_tilt_error_deg"] = largest_tilt_ / kRadPerDeg;
     out["velocity_rms_m_per_s"] = std::sqrt(velocity2_integral_ / observed_s_);
-    out["yaw_error_deg"] = std::abs(error_.yaw) / kDeg;
+    out["yaw_error_deg"] = std::abs(error_.yaw) / kRadPerDeg;
     out["position_error_m"] = error_.position_W.norm();
   }
   if (distance_ > kDistanceWorthDividingBy) {

@@ -1,16 +1,16 @@
 #include "plant/motion_capture.hpp"
 
+#include "core/angle.hpp"
 #include "core/config_reader.hpp"
 
 namespace ballbot {
 
 MotionCaptureParameters MotionCaptureParameters::read(ConfigReader in) {
-  constexpr double kDegree = 3.14159265358979323846 / 180;
   MotionCaptureParameters p;
   p.period = in.durationOr("period_ms", p.period, {0.1, 1e4});
   p.delay = in.durationOr("delay_ms", p.delay, {0, 1e4});
   p.position_noise = in.numberOr("position_noise_m", p.position_noise, {0, kInf});
-  p.yaw_noise = kDegree * in.numberOr("yaw_noise_deg", p.yaw_noise / kDegree, {0, kInf});
+  p.yaw_noise = kRadPerDeg * in.numberOr("yaw_noise_deg", p.yaw_noise / kRadPerDeg, {0, kInf});
   in.finish();
   return p;
 }

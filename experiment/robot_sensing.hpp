@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+
+#include "ballbot_msgs/state_estimate.hpp"
+#include "core/state_blob.hpp"
+#include "estimator/contact_force_observer.hpp"
+#include "estimator/estimator.hpp"
+#include "experiment/scenario.hpp"
+#include "model/robot_parameters.hpp"
+
+namespace ballbot {
+
+/// The robot as the controller has it: with the payload it believes it carries
+/// (`controller.known_payload_kg`); what it does carry stands in `environment`.
+/// @throw InputError with file, line and column.
+RobotParameters believedRobot(const Scenario& scenario);
+
+/// All that a controller makes of sensor frames before it decides anything: the estimator and the
+/// contact force observer, one frame per period of the estimator. The controller process and the
+/// replay of a log use this one class, so they cannot differ.
+class RobotSensing {
+ public:
+  /// @throw InputError with file, line and column.
+  explicit RobotSensing(const Scenario& scenario);
+
+  /// Frames in the order of time. Free of allocation; for the control step.
+  void update(const SensorFrame& frame) noexcept;
+
+  const Estimator& estimator() const { return *estimator_; }
+  /// State brought forward to `now`.
+  StateEstimate estimate(SimTime now) const noexcept { return estimator_->estimate(now); }
+  /// Environment on the end-effector, in W [N]; zero while held.
+  const Vector3& contactForce() const noexcept { return contact_force_.force(); }
+  /// As it goes on record; the tick is the recorder's.
+  void write(SimTime now, ballbot_msgs::state_estimate& out) const noexcept;
+
+  void save(BlobWriter& out) const;
+  void restore(BlobReader& in);
+
+ private:
+  SimTime release_;
+  std::unique_ptr<Estimator> estimator_;
+  ContactForceObserver contact_force_;
+};
+
+}  // namespace ballbot
