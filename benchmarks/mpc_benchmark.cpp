@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "controller/mpc_planner.hpp"
+#include "controller/whole_body_problem.hpp"
 #include "core/config_reader.hpp"
 #include "core/yaml_file.hpp"
 #include "model/robot_reader.hpp"
@@ -55,10 +56,12 @@ MpcConfig everythingOn(const RobotParameters& robot, double length, int stages, 
 
 /// A real-time iteration as a run does it: the last plan read at new knots, rolled out from a new
 /// state while dynamics and cost are approximated, Riccati sweep, line search, new plan.
-void mpcIteration(benchmark::State& state, double length, int stages, int threads) {
+void mpcIteration(benchmark::State& state, MpcConfig::Engine kind, double length, int stages,
+                  int threads) {
   const RobotParameters robot = benchmarkRobot();
-  const std::unique_ptr<MpcEngine> engine =
-      makeEngine(robot, everythingOn(robot, length, stages, threads));
+  MpcConfig config = everythingOn(robot, length, stages, threads);
+  config.engine = kind;
+  const std::unique_ptr<MpcEngine> engine = makeEngine(robot, config);
   const ReducedDynamics dynamics(robot);
   const Equilibrium rest = findEquilibrium(dynamics, robot.nominal_arm);
   MpcState x0;
@@ -67,7 +70,7 @@ void mpcIteration(benchmark::State& state, double length, int stages, int thread
   const LqrSolution lqr = designLqr(dynamics, robot.nominal_arm, LqrWeights{});
   for (auto& knot : seed.knots()) knot.x = x0;
   for (auto& control : seed.controls()) {
-    control.u << rest.tau, Vector3::Zero();
+    control.u << rest.tau, ContactInput::Zero();
     control.K.topLeftCorner<kJointCount, kStateDim>() = lqr.K;
   }
   seed.setValid(kSimStart);
@@ -95,24 +98,87 @@ void mpcIteration(benchmark::State& state, double length, int stages, int thread
   state.counters["line_search_us"] = microseconds(search);
 }
 
-void registerIterations() {
-  struct Case {
-    const char* name;
-    double length;
-    int stages;
-  };
+void registerIteration(std::string name, MpcConfig::Engine kind, double length, int stages,
+                       int threads) {
+  if (threads == 2) name += "/threads:2";
+  benchmark::RegisterBenchmark(name.c_str(), mpcIteration, kind, length, stages, threads)
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime();
+}
+
+bool registerIterations() {
   for (const int threads : {1, 2}) {
-    for (const Case& c : {Case{"T1_N50", 1, 50}, Case{"T1_N100", 1, 100}, Case{"T2_N200", 2, 200}}) {
-      std::string name = std::string("mpc_iteration/") + c.name;
-      if (threads == 2) name += "/threads:2";
-      benchmark::RegisterBenchmark(name.c_str(), mpcIteration,
-                                   c.length, c.stages, threads)
-          ->Unit(benchmark::kMillisecond)
-          ->UseRealTime();
+    const auto kind = MpcConfig::Engine::kDiscrete;
+    registerIteration("mpc_iteration/T1_N50", kind, 1, 50, threads);
+    registerIteration("mpc_iteration/T1_N100", kind, 1, 100, threads);
+    registerIteration("mpc_iteration/T2_N200", kind, 2, 200, threads);
+  }
+  registerIteration("mpc_iteration_continuous/T1_N50", MpcConfig::Engine::kContinuous, 1, 50, 1);
+  return true;
+}
+const bool registered = registerIterations();
+
+/// A trajectory of 100 stages near rest, and what the solver's steps work on.
+struct Stages {
+  static constexpr int kCount = 100;
+  using Problem = WholeBodyProblem<9>;
+
+  explicit Stages(const RobotParameters& robot)
+      : config(everythingOn(robot, 1, kCount, 1)),
+        problem(robot, config.constraints, config.shaping, config.terminal, config.horizon.knots()),
+        x(kCount),
+        u(kCount),
+        terms(kCount),
+        lq(kCount) {
+    problem.setTasks(*config.schedule, 0);
+    const Equilibrium rest = findEquilibrium(ReducedDynamics(robot), robot.nominal_arm);
+    for (int k = 0; k < kCount; ++k) {
+      x[k] << rest.x, Vector3::Constant(0.1);
+      x[k][kPitch] += 1e-3 * k;
+      u[k] << rest.tau, Vector3(0, 0, 5);
     }
   }
+  void approximate() {
+    problem.approximate(0, kCount, x.data(), u.data(), terms.data(), lq.data());
+  }
+
+  MpcConfig config;
+  Problem problem;
+  std::vector<Problem::X> x;
+  std::vector<Problem::U> u;
+  std::vector<CostTerms> terms;
+  std::vector<Problem::Stage> lq;
+};
+
+/// Dynamics and cost with all derivatives, 100 stages.
+void lq_approximation(benchmark::State& state) {
+  Stages stages(benchmarkRobot());
+  for (auto _ : state) {
+    stages.approximate();
+    benchmark::DoNotOptimize(stages.lq.data());
+  }
 }
-const bool registered = (registerIterations(), true);
+BENCHMARK(lq_approximation)->Unit(benchmark::kMillisecond);
+
+/// The solver's own Riccati recursion, 100 stages of 19 states and 9 inputs.
+void riccati_sweep(benchmark::State& state) {
+  Stages stages(benchmarkRobot());
+  stages.approximate();
+  ValueFunction<kMpcStateDim> final_value;
+  CostTerms terms;
+  stages.problem.approximateFinalCost(stages.x.back(), terms, final_value);
+  std::vector<StageGain<kMpcStateDim, 9>> gain(Stages::kCount);
+  for (auto _ : state) {
+    ValueFunction<kMpcStateDim> value = final_value;
+    bool positive = true;
+    for (int k = Stages::kCount - 1; k >= 0; --k) {
+      positive = riccatiStep(stages.lq[k], 1e-6, value, gain[k]) && positive;
+    }
+    if (!positive) state.SkipWithError("not convex");
+    benchmark::DoNotOptimize(gain.data());
+  }
+}
+BENCHMARK(riccati_sweep)->Unit(benchmark::kMillisecond);
 
 /// The machine's yardstick: a discrete Riccati sweep in plain fixed-size Eigen, 100 stages of 19
 /// states and 6 inputs, written as in a textbook.

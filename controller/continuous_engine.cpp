@@ -30,7 +30,7 @@ struct ContinuousEngine<NU>::RolloutFlow {
   static void evaluate(double t, const double* y, double* dy, void* self) {
     ContinuousEngine& e = *static_cast<ContinuousEngine*>(self);
     const Eigen::Map<const X> x(y);
-    e.schedule_->at(e.t0_ + t, e.t0_, e.tasks_, e.contact_);
+    e.tasksAt(t);
     const U u = e.inputAt(t, x, e.alpha_);
     X dx;
     e.problem_.flow(x, u, e.tasks_, dx);
@@ -103,6 +103,11 @@ MpcPolicy ContinuousEngine<NU>::emptyPolicy() const {
 }
 
 template <int NU>
+void ContinuousEngine<NU>::tasksAt(double t) noexcept {
+  schedule_->at(t0_ + t, t0_, tasks_, contact_);
+}
+
+template <int NU>
 typename ContinuousEngine<NU>::X ContinuousEngine<NU>::nominalAt(double t) const noexcept {
   const Node &a = nodes_[interval_], &b = nodes_[interval_ + 1];
   const double h = knots_[interval_ + 1] - knots_[interval_];
@@ -141,12 +146,12 @@ bool ContinuousEngine<NU>::rollout(const X& x0, double alpha, CostTerms& terms) 
   }
   terms = CostTerms{};
   std::copy_n(rollout_->y() + kNX, static_cast<int>(kCostTermCount), terms.value.begin());
-  schedule_->at(t0_ + knots_.back(), t0_, tasks_, contact_);
+  tasksAt(knots_.back());
   problem_.addFinalCost(rolled_x_.back(), tasks_, terms);
   // Violations are looked for where the policy has its knots.
   for (std::size_t k = 0; k < knots_.size(); ++k) {
     CostTerms rate;
-    schedule_->at(t0_ + knots_[k], t0_, tasks_, contact_);
+    tasksAt(knots_[k]);
     problem_.addCostRate(rolled_x_[k], rolled_u_[k], tasks_, rate);
     terms.violation = std::max(terms.violation, rate.violation);
   }
@@ -159,7 +164,7 @@ void ContinuousEngine<NU>::adoptRollout() noexcept {
     nodes_[k].x = rolled_x_[k];
     nodes_[k].u = rolled_u_[k];
     nodes_[k].step.setZero();
-    schedule_->at(t0_ + knots_[k], t0_, tasks_, contact_);
+    tasksAt(knots_[k]);
     problem_.flow(nodes_[k].x, nodes_[k].u, tasks_, nodes_[k].dx);
   }
 }
@@ -167,7 +172,7 @@ void ContinuousEngine<NU>::adoptRollout() noexcept {
 template <int NU>
 void ContinuousEngine<NU>::expand() noexcept {
   for (std::size_t k = 0; k < knots_.size(); ++k) {
-    schedule_->at(t0_ + knots_[k], t0_, tasks_, contact_);
+    tasksAt(knots_[k]);
     problem_.expand(nodes_[k].x, nodes_[k].u, tasks_, nodes_[k].dx, expansions_[k]);
   }
   problem_.expandFinalCost(nodes_.back().x, tasks_, final_value_);
@@ -252,7 +257,7 @@ SlqReport ContinuousEngine<NU>::solve(SimTime now, const MpcState& x0, const Mpc
     node.u = u.template head<NU>();
     node.K = K.template topRows<NU>();
     node.step.setZero();
-    schedule_->at(t0_ + knots_[k], t0_, tasks_, contact_);
+    tasksAt(knots_[k]);
     problem_.flow(node.x, node.u, tasks_, node.dx);
   }
 
@@ -280,5 +285,6 @@ SlqReport ContinuousEngine<NU>::solve(SimTime now, const MpcState& x0, const Mpc
 
 template class ContinuousEngine<6>;
 template class ContinuousEngine<9>;
+template class ContinuousEngine<12>;
 
 }  // namespace ballbot

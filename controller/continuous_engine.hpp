@@ -33,6 +33,7 @@ class ContinuousEngine final : public MpcEngine {
   MpcPolicy emptyPolicy() const override;
   SlqReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
                   MpcPolicy& out) noexcept override;
+  void setClock(PhaseClock clock) noexcept override { options_.clock = clock; }
   double shift() const noexcept override { return shift_; }
   void setShift(double shift) noexcept override { shift_ = shift; }
 
@@ -58,6 +59,7 @@ class ContinuousEngine final : public MpcEngine {
   void adoptRollout() noexcept;
   void expand() noexcept;
   bool sweep(double& predicted_decrease) noexcept;
+  void tasksAt(double t) noexcept;  ///< since t0_ [s], into tasks_
   U inputAt(double t, const X& x, double alpha) const noexcept;
   X nominalAt(double t) const noexcept;
 
@@ -71,7 +73,7 @@ class ContinuousEngine final : public MpcEngine {
   double t0_ = 0;             ///< absolute time of the first knot [s]
   int interval_ = 0;          ///< between which knots the integrators are
   double alpha_ = 0;
-  mutable Tasks tasks_;       ///< of the time the flow is at
+  Tasks tasks_;               ///< of the time the flow is at
   std::vector<Node> nodes_;
   std::vector<X> rolled_x_;
   std::vector<U> rolled_u_;

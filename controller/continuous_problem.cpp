@@ -2,37 +2,24 @@
 
 #include <algorithm>
 
+#include "controller/contact_input.hpp"
+
 namespace ballbot {
-namespace {
-
-template <typename U>
-Vector3 forceInContact(const U& u) {
-  if constexpr (U::RowsAtCompileTime > kJointCount) {
-    return u.template segment<3>(kJointCount);
-  } else {
-    return Vector3::Zero();
-  }
-}
-
-template <typename U>
-Vector3 forceInWorld(const U& u, const Tasks& tasks) {
-  return tasks.inContact() ? Vector3(tasks.R_WC * forceInContact(u)) : Vector3::Zero();
-}
-
-}  // namespace
 
 template <int NU>
 ContinuousProblem<NU>::ContinuousProblem(const RobotParameters& robot,
                                          const Constraints& constraints,
                                          const FrequencyShaping& shaping,
                                          const TerminalCost& terminal)
-    : dynamics_(robot), cost_(robot, constraints), shaping_(shaping), terminal_(terminal) {}
+    : dynamics_(robot), cost_(robot, constraints, terminal), shaping_(shaping) {}
 
 template <int NU>
 void ContinuousProblem<NU>::flow(const X& x, const U& u, const Tasks& tasks,
                                  X& dx) const noexcept {
+  const ContactWrench wrench(u, tasks);
   dx.template head<kStateDim>() = dynamics_.derivative(
-      x.template head<kStateDim>(), u.template head<kJointCount>(), forceInWorld(u, tasks));
+      x.template head<kStateDim>(), u.template head<kJointCount>(), wrench.force,
+      NU > kJointCount + 3 ? &wrench.moment : nullptr);
   dx.template tail<kFilterDim>() =
       shaping_.pole * (u.template head<kFilterDim>() - x.template tail<kFilterDim>());
 }
@@ -41,7 +28,7 @@ template <int NU>
 void ContinuousProblem<NU>::addCostRate(const X& x, const U& u, const Tasks& tasks,
                                         CostTerms& terms) const noexcept {
   cost_.addState(x.template head<kStateDim>(), tasks, 1, terms);
-  cost_.addInput(u.template head<kJointCount>(), forceInContact(u), tasks, 1, terms);
+  cost_.addInput(u.template head<kJointCount>(), contactInput(u), tasks, 1, terms);
   const double rho = shaping_.rho();
   const Vector3 shaped =
       rho * u.template head<kFilterDim>() - (rho - 1) * x.template tail<kFilterDim>();
@@ -52,8 +39,9 @@ template <int NU>
 void ContinuousProblem<NU>::expand(const X& x, const U& u, const Tasks& tasks, X& dx,
                                    Expansion& out) const noexcept {
   ReducedDynamics::Linearization model;
-  dynamics_.linearize(x.template head<kStateDim>(), u.template head<kJointCount>(),
-                      forceInWorld(u, tasks), model);
+  const ContactWrench wrench(u, tasks);
+  dynamics_.linearize(x.template head<kStateDim>(), u.template head<kJointCount>(), wrench.force,
+                      model, NU > kJointCount + 3 ? &wrench.moment : nullptr);
   dx.template head<kStateDim>() = model.f;
   dx.template tail<kFilterDim>() =
       shaping_.pole * (u.template head<kFilterDim>() - x.template tail<kFilterDim>());
@@ -61,26 +49,18 @@ void ContinuousProblem<NU>::expand(const X& x, const U& u, const Tasks& tasks, X
   auto B = out.B();
   A.template topLeftCorner<kStateDim, kStateDim>() = model.df_dx;
   B.template topLeftCorner<kStateDim, kJointCount>() = model.df_dtau;
-  if constexpr (NU > kJointCount) {
-    if (tasks.inContact()) {
-      B.template topRightCorner<kStateDim, 3>() = model.df_dlambda * tasks.R_WC;
-    } else {
-      B.template topRightCorner<kStateDim, 3>().setZero();
-    }
-  }
+  setContactColumns<NU - kJointCount>(tasks, model.df_dlambda, model.df_dmoment,
+                                      B.template topRightCorner<kStateDim, NU - kJointCount>());
 
   std::fill(std::begin(out.Wxx), std::end(out.Wxx), 0.0);
   CostTerms unused;
   cost_.expandState(x.template head<kStateDim>(), tasks, 1, unused,
                     {out.Wxx, Expansion::kX, kMpcStateDim});
   InputExpansion input;
-  cost_.expandInput(u.template head<kJointCount>(), forceInContact(u), tasks, 1, unused, input);
+  cost_.expandInput(u.template head<kJointCount>(), contactInput(u), tasks, 1, unused, input);
   auto R = out.R();
   auto r = out.r();
-  R.setZero();
-  R.diagonal() = input.diagonal.template head<NU>();
-  r = input.gradient.template head<NU>();
-  if constexpr (NU > kJointCount) R.template bottomRightCorner<3, 3>() = input.force_hessian;
+  setInputExpansion<NU>(input, R, r);
 
   // 1/2 w (rho u - (rho - 1) x_f)^2
   auto Q = out.Q();
@@ -103,17 +83,18 @@ void ContinuousProblem<NU>::expand(const X& x, const U& u, const Tasks& tasks, X
 template <int NU>
 void ContinuousProblem<NU>::addFinalCost(const X& x, const Tasks& tasks,
                                          CostTerms& terms) const noexcept {
-  cost_.addFinal(x.template head<kStateDim>(), tasks, 0, terminal_.state_scale, terms);
+  cost_.addFinal(x.template head<kStateDim>(), tasks, 0, terms);
 }
 
 template <int NU>
 void ContinuousProblem<NU>::expandFinalCost(const X& x, const Tasks& tasks,
                                             ValueFunction<kMpcStateDim>& value) const noexcept {
   CostTerms unused;
-  cost_.expandFinal(x.template head<kStateDim>(), tasks, 0, terminal_.state_scale, unused, value);
+  cost_.expandFinal(x.template head<kStateDim>(), tasks, 0, unused, value);
 }
 
 template class ContinuousProblem<6>;
 template class ContinuousProblem<9>;
+template class ContinuousProblem<12>;
 
 }  // namespace ballbot

@@ -31,7 +31,6 @@ class ContinuousProblem {
   ReducedDynamics dynamics_;
   WholeBodyCost cost_;
   FrequencyShaping shaping_;
-  TerminalCost terminal_;
 };
 
 }  // namespace ballbot

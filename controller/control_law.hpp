@@ -1,6 +1,7 @@
 #pragma once
 
 #include "controller/cost_terms.hpp"
+#include "controller/phase_clock.hpp"
 #include "core/state_blob.hpp"
 #include "core/time.hpp"
 #include "model/state.hpp"
@@ -25,6 +26,18 @@ struct ContactReport {
   Vector3 counted_on_W = Vector3::Zero();  ///< what was made of it: limited, dropped, added to [N]
 };
 
+/// How a solve ended. The numbers stand in recorded plan reports.
+enum class PlanStatus : int {
+  kNothingToSolve = 0,  ///< the law has no solver
+  kImproved = 1,
+  kConverged = 2,       ///< nothing left to gain
+  kNoDescent = 3,       ///< no step length lowered the cost
+  kNotFinite = 4,       ///< the problem, or the last plan rolled out anew, is not finite
+  kNotConvex = 5,
+  kStateNotFinite = 6,  ///< the estimate it was to start from
+};
+const char* planStatusName(PlanStatus status);
+
 /// What happened inside a plan() call, for the record.
 struct PlanReport {
   bool accepted = true;      ///< false: the previous policy stays in force
@@ -32,15 +45,14 @@ struct PlanReport {
   double cost = 0;
   double step_length = 0;
   double constraint_violation = 0;
-  const char* status = "";        ///< in words, e.g. "improved", "no descent"
+  PlanStatus status = PlanStatus::kNothingToSolve;
   bool fallback = false;          ///< the law's simple stand-in is in force, for lack of a plan
   double predicted_decrease = 0;  ///< of the cost, by the quadratic model
   double regularisation = 0;      ///< added to the diagonal of the input Hessian
   CostTerms terms;                ///< the cost by task and barrier
   ContactReport contact;
-  /// Wall-clock time of the phases, if the law was given a clock [ns]. Not for any record that has
-  /// to be the same twice.
-  std::int64_t approximation_ns = 0, riccati_ns = 0, line_search_ns = 0;
+  /// By the wall clock, if the law was given one. Not for any record that has to be the same twice.
+  PhaseTimes times;
 };
 
 /// A balancing law: plans at its own period, is sampled at the tracker's.
@@ -54,6 +66,9 @@ class ControlLaw {
 
   /// Force of the environment on the end-effector as measured, for the next plan() [N].
   virtual void setContactForce(const Vector3& force_W) noexcept { (void)force_W; }
+
+  /// Has the phases of each plan timed.
+  virtual void setClock(PhaseClock clock) noexcept { (void)clock; }
 
   /// Makes the newest plan the one that sample() uses.
   virtual void activatePlan() noexcept = 0;

@@ -16,6 +16,7 @@ const char* costTermName(CostTerm term) {
     case kWheelTorqueCost: return "wheel_torque";
     case kArmTorqueCost: return "arm_torque";
     case kContactForceCost: return "contact_force";
+    case kContactMomentCost: return "contact_moment";
     case kTorqueLimitCost: return "torque_limits";
     case kFrictionConeCost: return "friction_cone";
     case kArmPositionLimitCost: return "arm_position_limits";

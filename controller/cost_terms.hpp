@@ -20,6 +20,7 @@ enum CostTerm : int {
   kWheelTorqueCost,
   kArmTorqueCost,
   kContactForceCost,
+  kContactMomentCost,
   kTorqueLimitCost,
   kFrictionConeCost,
   kArmPositionLimitCost,

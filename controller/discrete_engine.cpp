@@ -57,5 +57,6 @@ SlqReport DiscreteEngine<NU>::solve(SimTime now, const MpcState& x0, const MpcPo
 
 template class DiscreteEngine<6>;
 template class DiscreteEngine<9>;
+template class DiscreteEngine<12>;
 
 }  // namespace ballbot

@@ -21,6 +21,7 @@ class DiscreteEngine final : public MpcEngine {
   MpcPolicy emptyPolicy() const override;
   SlqReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
                   MpcPolicy& out) noexcept override;
+  void setClock(PhaseClock clock) noexcept override { solver_.setClock(clock); }
   double shift() const noexcept override { return solver_.shift(); }
   void setShift(double shift) noexcept override { solver_.setShift(shift); }
 

@@ -23,6 +23,8 @@ class MpcEngine {
   /// For the solves that follow.
   void setContact(const ContactSituation& contact) noexcept { contact_ = contact; }
 
+  virtual void setClock(PhaseClock clock) noexcept = 0;
+
   /// What the engine carries from one solve to the next.
   virtual double shift() const noexcept = 0;
   virtual void setShift(double shift) noexcept = 0;

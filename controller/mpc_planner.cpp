@@ -1,8 +1,11 @@
 #include "controller/mpc_planner.hpp"
 
+#include <fmt/format.h>
+
 #include "controller/continuous_engine.hpp"
 #include "controller/discrete_engine.hpp"
 #include "core/config_reader.hpp"
+#include "core/error.hpp"
 
 namespace ballbot {
 namespace {
@@ -12,13 +15,33 @@ std::unique_ptr<MpcEngine> makeEngineOf(const RobotParameters& robot, const MpcC
   SlqOptions options;
   options.threads = c.threads;
   options.clock = c.clock;
+  TerminalCost terminal = c.terminal;
+  terminal.lqr_weights = c.lqr.weights;
   if (c.engine == MpcConfig::Engine::kContinuous) {
-    return std::make_unique<ContinuousEngine<NU>>(robot, c.constraints, c.shaping, c.terminal,
+    return std::make_unique<ContinuousEngine<NU>>(robot, c.constraints, c.shaping, terminal,
                                                   c.horizon.knots(), c.schedule, options,
                                                   c.continuous);
   }
-  return std::make_unique<DiscreteEngine<NU>>(robot, c.constraints, c.shaping, c.terminal,
+  return std::make_unique<DiscreteEngine<NU>>(robot, c.constraints, c.shaping, terminal,
                                               c.horizon.knots(), c.schedule, options);
+}
+
+/// A contact task is in vain where the plan has no such inputs.
+void requireInputsFor(ConfigReader& tasks, const char* task, const char* inputs, bool given) {
+  if (tasks.has(task) && !given) {
+    throw InputError(fmt::format("{} needs controller.mpc.{}: true", tasks.at(task), inputs));
+  }
+}
+
+PlanStatus planStatus(SlqStatus status) {
+  switch (status) {
+    case SlqStatus::kImproved: return PlanStatus::kImproved;
+    case SlqStatus::kConverged: return PlanStatus::kConverged;
+    case SlqStatus::kNoDescent: return PlanStatus::kNoDescent;
+    case SlqStatus::kNotFinite: return PlanStatus::kNotFinite;
+    case SlqStatus::kNotConvex: return PlanStatus::kNotConvex;
+  }
+  return PlanStatus::kNotFinite;
 }
 
 }  // namespace
@@ -41,6 +64,11 @@ MpcConfig MpcConfig::read(ConfigReader& in, const RobotParameters& robot) {
   c.threads = in.integerOr("threads", c.threads, {1, 2});
   c.solver_thread = in.booleanOr("solver_thread", c.solver_thread);
   c.contact_forces = in.booleanOr("contact_forces", c.contact_forces);
+  c.contact_moments = in.booleanOr("contact_moments", c.contact_moments);
+  if (c.contact_moments && !c.contact_forces) {
+    throw InputError(fmt::format("{} is true, needs contact_forces: true beside it",
+                                 in.at("contact_moments")));
+  }
   if (in.has("contact_supervision")) {
     ConfigReader supervision = in.child("contact_supervision");
     c.contact_supervision = ContactSupervision::read(supervision);
@@ -62,17 +90,20 @@ MpcConfig MpcConfig::read(ConfigReader& in, const RobotParameters& robot) {
   }
   if (in.has("terminal")) {
     ConfigReader terminal = in.child("terminal");
-    c.terminal.state_scale = terminal.numberOr("state_scale_s", c.terminal.state_scale, {0, 1e3});
-    terminal.finish();
+    c.terminal = TerminalCost::read(terminal);
   }
   ConfigReader tasks = in.child("tasks");
   c.schedule = std::make_shared<TaskSchedule>(TaskSchedule::read(tasks, robot));
+  requireInputsFor(tasks, "contact_force", "contact_forces", c.contact_forces);
+  requireInputsFor(tasks, "contact_moment", "contact_moments", c.contact_moments);
   in.finish();
   return c;
 }
 
 std::unique_ptr<MpcEngine> makeEngine(const RobotParameters& robot, const MpcConfig& config) {
-  return config.contact_forces ? makeEngineOf<9>(robot, config) : makeEngineOf<6>(robot, config);
+  if (config.contact_moments) return makeEngineOf<kJointCount + 6>(robot, config);
+  if (config.contact_forces) return makeEngineOf<kJointCount + 3>(robot, config);
+  return makeEngineOf<kJointCount>(robot, config);
 }
 
 MpcPlanner::MpcPlanner(const RobotParameters& robot, const MpcConfig& config)
@@ -109,7 +140,7 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
   PlanReport report;
   report.accepted = false;
   if (!x.allFinite() || !xf.allFinite() || !joint_angle.allFinite()) {
-    report.status = "state not finite";
+    report.status = PlanStatus::kStateNotFinite;
     return report;
   }
   report.contact = superviseContact(now, x);
@@ -117,7 +148,7 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
   if (!fresh) {
     for (auto& knot : seed_.knots()) knot.x << stand_in.x, Vector3::Zero();
     for (auto& control : seed_.controls()) {
-      control.u << stand_in.torque, Vector3::Zero();
+      control.u << stand_in.torque, ContactInput::Zero();
       control.K.setZero();
       control.K.topLeftCorner<kJointCount, kStateDim>() = stand_in.feedback;
     }
@@ -134,13 +165,11 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
   report.cost = slq.cost;
   report.step_length = slq.step_length;
   report.constraint_violation = slq.terms.violation;
-  report.status = slqStatusName(slq.status);
+  report.status = planStatus(slq.status);
   report.predicted_decrease = slq.predicted_decrease;
   report.regularisation = slq.shift;
   report.terms = slq.terms;
-  report.approximation_ns = slq.times.approximation_ns;
-  report.riccati_ns = slq.times.riccati_ns;
-  report.line_search_ns = slq.times.line_search_ns;
+  report.times = slq.times;
   return report;
 }
 

@@ -20,7 +20,8 @@ struct MpcConfig {
   int first_iterations = 10; ///< of a plan that starts from the LQR
   int threads = 1;            ///< the solver's; results are the same with 1 and 2
   bool solver_thread = false; ///< solve beside the control loop: for real time, not repeatable
-  bool contact_forces = false;  ///< the plan has end-effector forces as inputs
+  bool contact_forces = false;   ///< the plan has end-effector forces as inputs
+  bool contact_moments = false;  ///< and moments
   ContactSupervision contact_supervision;
   SimDuration fallback_after = std::chrono::milliseconds(100);  ///< without a good plan
   FrequencyShaping shaping;
@@ -28,7 +29,7 @@ struct MpcConfig {
   TerminalCost terminal;
   ContinuousOptions continuous;
   std::shared_ptr<const TaskSchedule> schedule;
-  LqrLawConfig lqr;  ///< seeds the first plan and takes over when plans fail
+  LqrLawConfig lqr;  ///< seeds the first plan, takes over when plans fail; weighs terminal.kind: lqr
   PhaseClock clock = nullptr;
 
   explicit MpcConfig(const RobotParameters& robot);
@@ -56,6 +57,7 @@ class MpcPlanner {
   PlanReport plan(SimTime now, const StateVector& x, const Vector3& xf,
                   const JointVector& joint_angle, const PolicySample& stand_in,
                   const MpcPolicy& previous, MpcPolicy& out) noexcept;
+  void setClock(PhaseClock clock) noexcept { engine_->setClock(clock); }
 
   /// Force of the environment on the end-effector as measured, for the plans that follow [N].
   void setContactForce(const Vector3& force_W) noexcept { contact_force_W_ = force_W; }

@@ -7,7 +7,6 @@
 
 namespace ballbot {
 
-constexpr int kMpcInputDim = kJointCount + 3;  ///< (tau, lambda_C)
 using MpcState = Eigen::Matrix<double, kMpcStateDim, 1>;
 using MpcInput = Eigen::Matrix<double, kMpcInputDim, 1>;
 using MpcGain = Eigen::Matrix<double, kMpcInputDim, kMpcStateDim>;

@@ -27,13 +27,12 @@ class OptimalControlProblem {
   /// Adds L_N to `terms`.
   virtual void addFinalCost(const X& x, CostTerms& terms) const noexcept = 0;
 
-  /// step(), with A and B of `lq`. `next` equals what step() gives but for
-  /// rounding.
-  virtual void linearizeStep(int k, const X& x, const U& u, X& next,
-                             LqStage<NX, NU>& lq) const noexcept = 0;
-  /// addCost(), with Q, q, P, R, r of `lq`, its Hessian positive semidefinite.
-  virtual void approximateCost(int k, const X& x, const U& u, CostTerms& terms,
-                               LqStage<NX, NU>& lq) const noexcept = 0;
+  /// What a trajectory is approximated by, stage after stage: `count` stages from stage `first` on,
+  /// all arrays beginning at that one. Overwrites A, B, Q, q, P, R, r of lq[i], with a positive
+  /// semidefinite Hessian, and adds the stage's cost to terms[i]. Each stage gets the same bits
+  /// whatever it is computed together with.
+  virtual void approximate(int first, int count, const X* x, const U* u, CostTerms* terms,
+                           LqStage<NX, NU>* lq) const noexcept = 0;
   /// addFinalCost(), with its second-order expansion, positive semidefinite.
   virtual void approximateFinalCost(const X& x, CostTerms& terms,
                                     ValueFunction<NX>& value) const noexcept = 0;

@@ -1,10 +1,11 @@
 #include "controller/slq_solver.hpp"
 
+#include <semaphore.h>
+
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <cmath>
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 
 #include "controller/line_search.hpp"
@@ -27,62 +28,70 @@ const char* slqStatusName(SlqStatus status) {
   return "";
 }
 
-/// Approximates the cost of stages the rollout has already reached. Every stage is computed by the
-/// same call whoever makes it, so the result does not depend on how many threads there are.
+/// A second thread that shares the approximation. Blocks of stages go to whoever is free, so that a
+/// helper that does not get a processor holds nobody up for longer than one block. A stage is
+/// computed by the same call whoever makes it: the result does not depend on the sharing.
 template <int NX, int NU>
 class SlqSolver<NX, NU>::Helper {
  public:
-  explicit Helper(SlqSolver& solver) : solver_(solver), thread_([this] { run(); }) {}
+  explicit Helper(SlqSolver& solver)
+      : solver_(solver), stages_(static_cast<int>(solver.lq_.size())), next_(stages_) {
+    sem_init(&wake_, 0, 0);
+    thread_ = std::thread([this] { run(); });
+  }
   ~Helper() {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      quit_ = true;
-    }
-    wake_.notify_one();
+    quit_.store(true);
+    sem_post(&wake_);
     thread_.join();
+    sem_destroy(&wake_);
   }
 
-  void start(const Problem& problem) {
-    reached_.store(0, std::memory_order_relaxed);
-    finished_.store(false, std::memory_order_relaxed);
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      problem_ = &problem;
-    }
-    wake_.notify_one();
+  /// Wakes the helper ahead of time, so that it is there when the rollout is done.
+  void prepare() noexcept {
+    rolled_out_.store(false, std::memory_order_relaxed);
+    sem_post(&wake_);
   }
-  /// x and u of the first `stages` stages are final.
-  void publish(int stages) noexcept { reached_.store(stages, std::memory_order_release); }
-  void wait() const noexcept {
-    while (!finished_.load(std::memory_order_acquire)) std::this_thread::yield();
+  /// After prepare(), when there is nothing to share after all.
+  void cancel() noexcept { rolled_out_.store(true, std::memory_order_release); }
+  /// After prepare() and the rollout: approximates all stages, together with the helper.
+  void approximate(const Problem& problem) noexcept {
+    problem_ = &problem;
+    finished_.store(0, std::memory_order_relaxed);
+    next_.store(0, std::memory_order_release);  // from here on blocks can be taken
+    rolled_out_.store(true, std::memory_order_release);
+    takeBlocks();
+    while (finished_.load(std::memory_order_acquire) < stages_) std::this_thread::yield();
   }
 
  private:
-  void run() {
+  static constexpr int kBlock = 4;
+
+  void takeBlocks() noexcept {
     for (;;) {
-      const Problem* problem = nullptr;
-      {
-        std::unique_lock<std::mutex> lock(mutex_);
-        wake_.wait(lock, [this] { return quit_ || problem_; });
-        if (quit_) return;
-        std::swap(problem, problem_);
+      const int first = next_.fetch_add(kBlock, std::memory_order_acq_rel);
+      if (first >= stages_) return;
+      const int count = std::min(kBlock, stages_ - first);
+      solver_.approximateStages(*problem_, first, count);
+      finished_.fetch_add(count, std::memory_order_release);
+    }
+  }
+  void run() noexcept {
+    for (;;) {
+      while (sem_wait(&wake_) != 0 && errno == EINTR) {
       }
-      const int stages = problem->stages();
-      for (int k = 0; k < stages; ++k) {
-        while (reached_.load(std::memory_order_acquire) <= k) std::this_thread::yield();
-        solver_.approximateCostOf(*problem, k);
-      }
-      finished_.store(true, std::memory_order_release);
+      if (quit_.load()) return;
+      while (!rolled_out_.load(std::memory_order_acquire)) std::this_thread::yield();
+      takeBlocks();
     }
   }
 
   SlqSolver& solver_;
-  std::mutex mutex_;
-  std::condition_variable wake_;
+  const int stages_;
   const Problem* problem_ = nullptr;
-  bool quit_ = false;
-  std::atomic<int> reached_{0};
-  std::atomic<bool> finished_{true};
+  sem_t wake_;
+  std::atomic<bool> quit_{false}, rolled_out_{false};
+  std::atomic<int> next_;         // stage nobody has taken yet
+  std::atomic<int> finished_{0};  // stages that are done
   std::thread thread_;
 };
 
@@ -99,32 +108,42 @@ template <int NX, int NU>
 SlqSolver<NX, NU>::~SlqSolver() = default;
 
 template <int NX, int NU>
-void SlqSolver<NX, NU>::approximateCostOf(const Problem& problem, int k) noexcept {
-  stage_terms_[k] = CostTerms{};
-  problem.approximateCost(k, nominal_.x[k], nominal_.u[k], stage_terms_[k], lq_[k]);
+bool SlqSolver<NX, NU>::rollOutNominal(const Problem& problem, const X& x0) noexcept {
+  X x = x0;
+  for (int k = 0; k < problem.stages(); ++k) {
+    nominal_.u[k] += nominal_.gain[k].K() * (x - nominal_.x[k]);
+    nominal_.x[k] = x;
+    problem.step(k, nominal_.x[k], nominal_.u[k], x);
+  }
+  nominal_.x[problem.stages()] = x;
+  return x.allFinite();
 }
 
 template <int NX, int NU>
-CostTerms SlqSolver<NX, NU>::approximate(const Problem& problem, const X& x0) noexcept {
-  const int stages = problem.stages();
-  if (helper_) helper_->start(problem);
-  X x = x0;
-  for (int k = 0; k < stages; ++k) {
-    nominal_.u[k] += nominal_.gain[k].K() * (x - nominal_.x[k]);
-    nominal_.x[k] = x;
-    if (helper_) helper_->publish(k + 1);
-    problem.linearizeStep(k, nominal_.x[k], nominal_.u[k], x, lq_[k]);
-    if (!helper_) approximateCostOf(problem, k);
-  }
-  nominal_.x[stages] = x;
-  CostTerms final_terms;
-  problem.approximateFinalCost(x, final_terms, final_value_);
-  if (helper_) helper_->wait();
+void SlqSolver<NX, NU>::approximateStages(const Problem& problem, int first, int count) noexcept {
+  std::fill_n(stage_terms_.begin() + first, count, CostTerms{});
+  problem.approximate(first, count, &nominal_.x[first], &nominal_.u[first], &stage_terms_[first],
+                      &lq_[first]);
+}
 
-  CostTerms terms;
-  for (int k = 0; k < stages; ++k) terms += stage_terms_[k];
+template <int NX, int NU>
+bool SlqSolver<NX, NU>::approximate(const Problem& problem, const X& x0,
+                                    CostTerms& terms) noexcept {
+  if (helper_) helper_->prepare();
+  if (!rollOutNominal(problem, x0)) {
+    if (helper_) helper_->cancel();
+    return false;
+  }
+  if (helper_) {
+    helper_->approximate(problem);
+  } else {
+    approximateStages(problem, 0, problem.stages());
+  }
+  CostTerms final_terms;
+  problem.approximateFinalCost(nominal_.x.back(), final_terms, final_value_);
+  for (const CostTerms& stage : stage_terms_) terms += stage;
   terms += final_terms;
-  return terms;
+  return std::isfinite(terms.total());
 }
 
 template <int NX, int NU>
@@ -167,11 +186,12 @@ SlqReport SlqSolver<NX, NU>::iterate(const Problem& problem, const X& x0) noexce
   };
 
   const std::int64_t t0 = now();
-  const CostTerms nominal_terms = approximate(problem, x0);
-  report.nominal_cost = report.cost = nominal_terms.total();
+  CostTerms nominal_terms;
+  const bool finite = approximate(problem, x0, nominal_terms);
   const std::int64_t t1 = now();
   report.times.approximation_ns = t1 - t0;
-  if (!std::isfinite(report.nominal_cost)) {
+  report.nominal_cost = report.cost = nominal_terms.total();
+  if (!finite) {
     report.status = SlqStatus::kNotFinite;
     return report;
   }
@@ -227,5 +247,6 @@ SlqReport SlqSolver<NX, NU>::converge(const Problem& problem, const X& x0, int l
 template class SlqSolver<4, 2>;
 template class SlqSolver<19, 6>;
 template class SlqSolver<19, 9>;
+template class SlqSolver<19, 12>;
 
 }  // namespace ballbot

@@ -5,15 +5,12 @@
 #include <vector>
 
 #include "controller/optimal_control_problem.hpp"
+#include "controller/phase_clock.hpp"
 
 namespace ballbot {
 
-/// Wall clock for the time of each phase, in nanoseconds; whoever wants times passes one in. Times
-/// never take part in a result.
-using PhaseClock = std::int64_t (*)() noexcept;
-
 struct SlqOptions {
-  int threads = 1;           ///< 1, or 2: a helper approximates the cost behind the rollout
+  int threads = 1;           ///< 1, or 2: a helper shares the approximation
   double base_shift = 1e-6;  ///< added to the diagonal of H_u
   double largest_shift = 1e6;
   double armijo = 1e-4;
@@ -40,9 +37,7 @@ struct SlqReport {
   double step_length = 0;
   double shift = 0;               ///< Riccati regularisation used
   CostTerms terms;                ///< of the result
-  struct PhaseTimes {
-    std::int64_t approximation_ns = 0, riccati_ns = 0, line_search_ns = 0;
-  } times;
+  PhaseTimes times;
 
   bool ok() const { return status == SlqStatus::kImproved || status == SlqStatus::kConverged; }
 };
@@ -93,12 +88,15 @@ class SlqSolver {
   /// Regularisation of the next iteration: raised after failures, lowered after successes.
   double shift() const { return shift_; }
   void setShift(double shift) { shift_ = shift; }
+  void setClock(PhaseClock clock) { options_.clock = clock; }
 
  private:
   class Helper;
 
-  void approximateCostOf(const Problem& problem, int k) noexcept;
-  CostTerms approximate(const Problem& problem, const X& x0) noexcept;
+  /// False where the rollout, or the cost along it, is not finite.
+  bool rollOutNominal(const Problem& problem, const X& x0) noexcept;
+  bool approximate(const Problem& problem, const X& x0, CostTerms& terms) noexcept;
+  void approximateStages(const Problem& problem, int first, int count) noexcept;
   /// False where H_u is not positive definite.
   bool sweep(double& predicted_decrease) noexcept;
   CostTerms tryStep(const Problem& problem, double alpha) noexcept;

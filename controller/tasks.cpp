@@ -61,6 +61,11 @@ TaskSchedule TaskSchedule::read(ConfigReader& in, const RobotParameters& robot) 
   readTask(in, "wheel_torque", s.wheel_torque_weight);
   readTask(in, "arm_torque", s.arm_torque_weight);
   readTask(in, "contact_force", s.contact_force_weight, &s.contact_force);
+  readTask(in, "contact_moment", s.contact_moment_weight, &s.contact_moment);
+  if (in.has("contact_turn")) {
+    ConfigReader turn = in.child("contact_turn");
+    s.contact_turn = TimeSignal<1>::read(turn, s.contact_turn.value(-kInf));
+  }
   if (in.has("contact_hinge_m")) {
     const auto hinge = in.numbers<2>("contact_hinge_m", {-1e3, 1e3});
     s.contact_hinge = Eigen::Vector2d(hinge[0], hinge[1]);
@@ -100,7 +105,11 @@ void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& 
   out.wheel_torque_weight = wheel_torque_weight.value(t, known)[0];
   out.arm_torque_weight = arm_torque_weight.value(t, known)[0];
   out.contact_force_weight.setZero();
-  if (!contact.lost) out.contact_force_weight = contact_force_weight.value(t, known);
+  out.contact_moment_weight.setZero();
+  if (!contact.lost) {
+    out.contact_force_weight = contact_force_weight.value(t, known);
+    out.contact_moment_weight = contact_moment_weight.value(t, known);
+  }
 
   const Vector3 angles = ee_orientation.value(t, known);
   out.p_WE = ee_position.value(t, known);
@@ -114,7 +123,9 @@ void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& 
   out.contact_force_C = contact_force.value(t, known);
   double& normal_force = out.contact_force_C.z();
   normal_force = std::min(normal_force, contact.force_limit) + contact.force_added;
-  out.R_WC = Eigen::AngleAxisd(contact.turn, Vector3::UnitZ()) * contactFrame(contact_normal_W);
+  out.contact_moment_C = contact_moment.value(t, known);
+  const double turn = contact_turn.value(t, known)[0] + contact.turn;
+  out.R_WC = Eigen::AngleAxisd(turn, Vector3::UnitZ()) * contactFrame(contact_normal_W);
 }
 
 double TaskSchedule::turnAboutHinge(const Vector3& p_WE) const {

@@ -31,6 +31,7 @@ struct Tasks {
   double wheel_torque_weight = 0;                   ///< of the shaped torque [1/(N m)^2]
   double arm_torque_weight = 0;                     ///< [1/(N m)^2]
   Vector3 contact_force_weight = Vector3::Zero();   ///< in C [1/N^2]; all zero: no contact
+  Vector3 contact_moment_weight = Vector3::Zero();  ///< in C [1/(N m)^2]; all zero: no moments
 
   // Targets.
   Vector3 p_WE = Vector3::Zero();
@@ -40,11 +41,14 @@ struct Tasks {
   Eigen::Vector2d ball_velocity = Eigen::Vector2d::Zero();
   double yaw = 0;
   Vector3 arm_position = Vector3::Zero();
-  Vector3 contact_force_C = Vector3::Zero();  ///< on the end-effector [N]
+  Vector3 contact_force_C = Vector3::Zero();   ///< on the end-effector [N]
+  Vector3 contact_moment_C = Vector3::Zero();  ///< on the end-effector, at E [N m]
   Matrix3 R_WC = Matrix3::Identity();         ///< contact frame, z_C: normal pointing to the robot
 
   /// The plan may push on the environment.
   bool inContact() const { return !contact_force_weight.isZero(0); }
+  /// ... and twist on it.
+  bool withMoments() const { return inContact() && !contact_moment_weight.isZero(0); }
 };
 
 /// What a plan has to know about the contact beyond the schedule.
@@ -64,7 +68,8 @@ class TaskSchedule {
 
   /// Keys, each optional, as in docs/theory/mpc.md: ee_position, ee_orientation, ee_velocity,
   /// ee_rate, ball_position, yaw, ball_velocity, base_rate, arm_position, arm_rate, wheel_torque,
-  /// arm_torque, contact_force, contact_normal, contact_hinge_m.
+  /// arm_torque, contact_force, contact_moment, contact_normal, contact_turn, contact_hinge_m,
+  /// preview.
   static TaskSchedule read(ConfigReader& in, const RobotParameters& robot);
 
   /// Tasks at time t [s] as known at `now` <= t, see TimeSignal::value. Free of allocation.
@@ -82,7 +87,7 @@ class TaskSchedule {
   TimedWeight<1> yaw_weight;
   TimedWeight<3> base_rate_weight, arm_position_weight, arm_rate_weight;
   TimedWeight<1> wheel_torque_weight, arm_torque_weight;
-  TimedWeight<3> contact_force_weight;
+  TimedWeight<3> contact_force_weight, contact_moment_weight;
 
   TimeSignal<3> ee_position;     ///< p_WE [m]
   TimeSignal<3> ee_orientation;  ///< yaw, pitch, roll of E in W [rad]
@@ -90,6 +95,8 @@ class TaskSchedule {
   TimeSignal<1> yaw;             ///< [rad]
   TimeSignal<3> arm_position;    ///< [rad]
   TimeSignal<3> contact_force;   ///< in C [N]
+  TimeSignal<3> contact_moment;  ///< in C [N m]
+  TimeSignal<1> contact_turn;    ///< of the contact frame about the vertical [rad]
 
   Vector3 contact_normal_W = -Vector3::UnitX();  ///< unit, pointing to the robot, before any turn
   std::optional<Eigen::Vector2d> contact_hinge;  ///< vertical axis the touched surface turns on [m]

@@ -84,28 +84,28 @@ OrientationError orientationError(const Matrix3& R_desired, const Matrix3& R) {
   return {sign * delta.vec(), sign * delta.w()};
 }
 
-WholeBodyCost::WholeBodyCost(const RobotParameters& robot, const Constraints& constraints)
+WholeBodyCost::WholeBodyCost(const RobotParameters& robot, const Constraints& constraints,
+                             const TerminalCost& terminal)
     : dynamics_(robot),
       constraints_(constraints),
+      terminal_(terminal),
+      lqr_value_(terminal.kind == TerminalCost::Kind::kLqr
+                     ? std::make_shared<const LqrTerminalCost>(robot, terminal)
+                     : nullptr),
       sin_tilt_limit_(std::sin(constraints.tilt_limit)),
       cos_tilt_limit_(std::cos(constraints.tilt_limit)) {}
 
 template <bool kExpand>
-void WholeBodyCost::stateCost(const StateVector& x, const Tasks& tasks, double share,
-                              CostTerms& terms, StateExpansion* out) const {
+void WholeBodyCost::stateCost(const StateVector& x, const ReducedDynamics::EndEffector& tip,
+                              const EndEffectorLinearization* by_x, const Tasks& tasks,
+                              double share, CostTerms& terms, StateExpansion* out) const {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
-  ReducedDynamics::EndEffectorLinearization ee;
-  if constexpr (kExpand) {
-    dynamics_.linearizeEndEffector(x, ee);
-  } else {
-    ee.value = dynamics_.endEffector(x);
-  }
 
   // End-effector pose and twist.
-  const OrientationError turn = orientationError(tasks.R_WE, ee.value.R_WE);
-  const Vector3 p_error = ee.value.p_WE - tasks.p_WE;
+  const OrientationError turn = orientationError(tasks.R_WE, tip.R_WE);
+  const Vector3 p_error = tip.p_WE - tasks.p_WE;
   Vector6 twist_error;
-  twist_error << ee.value.v_WE_W - tasks.v_WE_W, ee.value.w_WE_W - tasks.w_WE_W;
+  twist_error << tip.v_WE_W - tasks.v_WE_W, tip.w_WE_W - tasks.w_WE_W;
   Vector6 twist_weight;
   twist_weight << tasks.ee_velocity_weight, tasks.ee_rate_weight;
   terms.value[kEndEffectorPositionCost] +=
@@ -114,7 +114,7 @@ void WholeBodyCost::stateCost(const StateVector& x, const Tasks& tasks, double s
       0.5 * share * tasks.ee_orientation_weight.dot(turn.e.cwiseAbs2());
   terms.value[kEndEffectorTwistCost] += 0.5 * share * twist_weight.dot(twist_error.cwiseAbs2());
   if constexpr (kExpand) {
-    EndEffectorJacobian J = ee.dpose_dq;
+    EndEffectorJacobian J = by_x->dpose_dq;
     Matrix3 to_error = 0.5 * turn.eta * Matrix3::Identity();
     to_error(0, 1) = -0.5 * turn.e.z();
     to_error(0, 2) = 0.5 * turn.e.y();
@@ -122,7 +122,7 @@ void WholeBodyCost::stateCost(const StateVector& x, const Tasks& tasks, double s
     to_error(1, 0) = -to_error(0, 1);
     to_error(2, 0) = -to_error(0, 2);
     to_error(2, 1) = -to_error(1, 2);
-    J.bottomRows<3>().noalias() = -to_error * ee.dpose_dq.bottomRows<3>();
+    J.bottomRows<3>().noalias() = -to_error * by_x->dpose_dq.bottomRows<3>();
     Vector6 weight, error;
     weight << tasks.ee_position_weight, tasks.ee_orientation_weight;
     error.head<3>() = p_error;
@@ -136,8 +136,8 @@ void WholeBodyCost::stateCost(const StateVector& x, const Tasks& tasks, double s
       const Vector6 twist_root = (share * twist_weight).cwiseSqrt();
       const Vector6 scaled_error = twist_root.cwiseProduct(twist_error);
       WeightedRows along_q, along_nu;
-      along_q.set(ee.dtwist_dq, twist_root);
-      along_nu.set(ee.jacobian, twist_root);
+      along_q.set(by_x->dtwist_dq, twist_root);
+      along_nu.set(by_x->jacobian, twist_root);
       addRowsProduct(along_q, along_q, *out, 0, 0);
       addRowsProduct(along_nu, along_q, *out, kPositionDim, 0);
       addRowsProduct(along_nu, along_nu, *out, kPositionDim, kPositionDim);
@@ -206,8 +206,9 @@ void WholeBodyCost::stateCost(const StateVector& x, const Tasks& tasks, double s
 }
 
 template <bool kExpand>
-void WholeBodyCost::inputCost(const JointVector& tau, const Vector3& lambda_C, const Tasks& tasks,
-                              double share, CostTerms& terms, InputExpansion* out) const {
+void WholeBodyCost::inputCost(const JointVector& tau, const ContactInput& contact,
+                              const Tasks& tasks, double share, CostTerms& terms,
+                              InputExpansion* out) const {
   BarrierSum limits(constraints_.torque);
   for (int i = 0; i < kJointCount; ++i) {
     const double limit = constraints_.torque_limit[i];
@@ -221,11 +222,26 @@ void WholeBodyCost::inputCost(const JointVector& tau, const Vector3& lambda_C, c
   }
   terms.value[kTorqueLimitCost] += share * limits.value();
 
+  forceCost<kExpand>(contact.head<3>(), tasks, share, terms, out);
+
+  const Vector3 weight = tasks.withMoments() ? tasks.contact_moment_weight : Vector3::Ones();
+  const Vector3 target = tasks.withMoments() ? tasks.contact_moment_C : Vector3::Zero();
+  const Vector3 error = contact.tail<3>() - target;
+  terms.value[kContactMomentCost] += 0.5 * share * weight.dot(error.cwiseAbs2());
+  if constexpr (kExpand) {
+    out->gradient.tail<3>() = share * weight.cwiseProduct(error);
+    out->diagonal.tail<3>() = share * weight;
+  }
+}
+
+template <bool kExpand>
+void WholeBodyCost::forceCost(const Vector3& lambda_C, const Tasks& tasks, double share,
+                              CostTerms& terms, InputExpansion* out) const {
   if (!tasks.inContact()) {
     terms.value[kContactForceCost] += 0.5 * share * lambda_C.squaredNorm();
     if constexpr (kExpand) {
-      out->gradient.tail<3>() = share * lambda_C;
-      out->diagonal.tail<3>().setConstant(share);
+      out->gradient.segment<3>(kJointCount) = share * lambda_C;
+      out->diagonal.segment<3>(kJointCount).setConstant(share);
       out->force_hessian = share * Matrix3::Identity();
     }
     return;
@@ -247,59 +263,67 @@ void WholeBodyCost::inputCost(const JointVector& tau, const Vector3& lambda_C, c
     h_hessian(1, 1) = -(lx * lx + epsilon * epsilon) / n3;
     h_hessian(0, 1) = h_hessian(1, 0) = lx * ly / n3;
     const double slope = std::min(0.0, d.first);
-    out->gradient.tail<3>() =
+    out->gradient.segment<3>(kJointCount) =
         share * (tasks.contact_force_weight.cwiseProduct(error) + d.first * h_gradient);
     out->force_hessian = share * (d.second * h_gradient * h_gradient.transpose() +
                                   slope * h_hessian);
     out->force_hessian.diagonal() += share * tasks.contact_force_weight;
-    out->diagonal.tail<3>() = out->force_hessian.diagonal();
+    out->diagonal.segment<3>(kJointCount) = out->force_hessian.diagonal();
   }
 }
 
 void WholeBodyCost::addState(const StateVector& x, const Tasks& tasks, double share,
                              CostTerms& terms) const {
-  stateCost<false>(x, tasks, share, terms, nullptr);
+  stateCost<false>(x, dynamics_.endEffector(x), nullptr, tasks, share, terms, nullptr);
 }
 
 void WholeBodyCost::expandState(const StateVector& x, const Tasks& tasks, double share,
                                 CostTerms& terms, StateExpansion out) const {
-  stateCost<true>(x, tasks, share, terms, &out);
+  EndEffectorLinearization tip;
+  dynamics_.linearizeEndEffector(x, tip);
+  expandState(x, tip, tasks, share, terms, out);
 }
 
-void WholeBodyCost::addFinal(const StateVector& x, const Tasks& tasks, double share, double scale,
+void WholeBodyCost::expandState(const StateVector& x, const EndEffectorLinearization& tip,
+                                const Tasks& tasks, double share, CostTerms& terms,
+                                StateExpansion out) const {
+  stateCost<true>(x, tip.value, &tip, tasks, share, terms, &out);
+}
+
+void WholeBodyCost::addFinal(const StateVector& x, const Tasks& tasks, double share,
                              CostTerms& terms) const {
   CostTerms rate;
-  stateCost<false>(x, tasks, 1, rate, nullptr);
+  addState(x, tasks, 1, rate);
   for (int i = 0; i < kCostTermCount; ++i) terms.value[i] += share * rate.value[i];
-  terms.value[kTerminalCost] += scale * rate.total();
+  terms.value[kTerminalCost] += terminal_.stateScale() * rate.total();
+  if (lqr_value_) terms.value[kTerminalCost] += lqr_value_->value(x, tasks);
   terms.violation = std::max(terms.violation, rate.violation);
 }
 
 void WholeBodyCost::expandFinal(const StateVector& x, const Tasks& tasks, double share,
-                                double scale, CostTerms& terms,
-                                ValueFunction<kMpcStateDim>& value) const {
+                                CostTerms& terms, ValueFunction<kMpcStateDim>& value) const {
   constexpr int kX = ValueFunction<kMpcStateDim>::kX;
   std::fill(std::begin(value.S_aug), std::end(value.S_aug), 0.0);
   CostTerms rate;
-  StateExpansion expansion{value.S_aug, kX, kMpcStateDim};
-  stateCost<true>(x, tasks, 1, rate, &expansion);
-  for (double& s : value.S_aug) s *= share + scale;
+  expandState(x, tasks, 1, rate, {value.S_aug, kX, kMpcStateDim});
+  for (double& s : value.S_aug) s *= share + terminal_.stateScale();
   for (int j = 0; j < kX; ++j)
     for (int i = j + 1; i < kX; ++i) value.S_aug[i * kX + j] = value.S_aug[j * kX + i];
   for (int i = 0; i < kCostTermCount; ++i) terms.value[i] += share * rate.value[i];
-  terms.value[kTerminalCost] += scale * rate.total();
+  terms.value[kTerminalCost] += terminal_.stateScale() * rate.total();
+  if (lqr_value_) terms.value[kTerminalCost] += lqr_value_->expand(x, tasks, value);
   terms.violation = std::max(terms.violation, rate.violation);
 }
 
-void WholeBodyCost::addInput(const JointVector& tau, const Vector3& lambda_C, const Tasks& tasks,
-                             double share, CostTerms& terms) const {
-  inputCost<false>(tau, lambda_C, tasks, share, terms, nullptr);
+void WholeBodyCost::addInput(const JointVector& tau, const ContactInput& contact,
+                             const Tasks& tasks, double share, CostTerms& terms) const {
+  inputCost<false>(tau, contact, tasks, share, terms, nullptr);
 }
 
-void WholeBodyCost::expandInput(const JointVector& tau, const Vector3& lambda_C,
+void WholeBodyCost::expandInput(const JointVector& tau, const ContactInput& contact,
                                 const Tasks& tasks, double share, CostTerms& terms,
                                 InputExpansion& out) const {
-  inputCost<true>(tau, lambda_C, tasks, share, terms, &out);
+  inputCost<true>(tau, contact, tasks, share, terms, &out);
 }
 
 }  // namespace ballbot

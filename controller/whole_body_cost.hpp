@@ -4,12 +4,10 @@
 #include "controller/cost_terms.hpp"
 #include "controller/riccati.hpp"
 #include "controller/tasks.hpp"
+#include "controller/terminal_cost.hpp"
 #include "model/reduced_dynamics.hpp"
 
 namespace ballbot {
-
-constexpr int kFilterDim = kWheelCount;                 ///< low-passed wheel torques x_f
-constexpr int kMpcStateDim = kStateDim + kFilterDim;    ///< (q, nu, x_f)
 
 /// Where a cost adds its second-order expansion in the robot's state: lower triangle and gradient
 /// inside a column-major augmented matrix [H g; g^T *] of an LqStage or a ValueFunction.
@@ -22,9 +20,9 @@ struct StateExpansion {
   double& g(int i) { return W[i * stride + gradient_row]; }
 };
 
-/// The same for the inputs (tau, lambda): H is diagonal but for the force's 3 x 3 block.
+/// The same for the inputs (tau, force, moment): H is diagonal but for the force's 3 x 3 block.
 struct InputExpansion {
-  Eigen::Matrix<double, kJointCount + 3, 1> gradient, diagonal;
+  Eigen::Matrix<double, kJointCount + kContactDim, 1> gradient, diagonal;
   Matrix3 force_hessian;
 };
 
@@ -34,38 +32,51 @@ struct InputExpansion {
 /// time) and added. Hessians are Gauss-Newton where residuals are curved: positive semidefinite.
 class WholeBodyCost {
  public:
-  WholeBodyCost(const RobotParameters& robot, const Constraints& constraints);
+  using EndEffectorLinearization = ReducedDynamics::EndEffectorLinearization;
+
+  /// @throw NumericalError as LqrTerminalCost, if that is the terminal cost.
+  WholeBodyCost(const RobotParameters& robot, const Constraints& constraints,
+                const TerminalCost& terminal = {});
   const Constraints& constraints() const { return constraints_; }
 
   void addState(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms) const;
   void expandState(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms,
                    StateExpansion out) const;
+  /// The same for those who have linearised the end-effector at x already.
+  void expandState(const StateVector& x, const EndEffectorLinearization& tip, const Tasks& tasks,
+                   double share, CostTerms& terms, StateExpansion out) const;
 
-  /// The end of a horizon: `share` of the state's cost rate as before, and `scale` of it [s] as the
-  /// cost of what comes after. The expansion overwrites `value`, whole and symmetric.
-  void addFinal(const StateVector& x, const Tasks& tasks, double share, double scale,
-                CostTerms& terms) const;
-  void expandFinal(const StateVector& x, const Tasks& tasks, double share, double scale,
-                   CostTerms& terms, ValueFunction<kMpcStateDim>& value) const;
+  /// The end of a horizon: `share` of the state's cost rate as before, and the terminal cost. The
+  /// expansion overwrites `value`, whole and symmetric.
+  void addFinal(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms) const;
+  void expandFinal(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms,
+                   ValueFunction<kMpcStateDim>& value) const;
 
   /// All of the input cost but the wheel torques' own squares, which frequency shaping takes over.
-  /// Without contact the force costs |lambda|^2 / 2 and moves nothing: it stays zero.
-  void addInput(const JointVector& tau, const Vector3& lambda_C, const Tasks& tasks, double share,
-                CostTerms& terms) const;
+  /// Without contact the force costs |lambda|^2 / 2 and moves nothing: it stays zero. So does the
+  /// moment without a task of its own.
+  void addInput(const JointVector& tau, const ContactInput& contact, const Tasks& tasks,
+                double share, CostTerms& terms) const;
   /// Overwrites `out`.
-  void expandInput(const JointVector& tau, const Vector3& lambda_C, const Tasks& tasks,
+  void expandInput(const JointVector& tau, const ContactInput& contact, const Tasks& tasks,
                    double share, CostTerms& terms, InputExpansion& out) const;
 
  private:
   template <bool kExpand>
-  void stateCost(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms,
-                 StateExpansion* out) const;
+  void stateCost(const StateVector& x, const ReducedDynamics::EndEffector& tip,
+                 const EndEffectorLinearization* by_x, const Tasks& tasks, double share,
+                 CostTerms& terms, StateExpansion* out) const;
   template <bool kExpand>
-  void inputCost(const JointVector& tau, const Vector3& lambda_C, const Tasks& tasks, double share,
-                 CostTerms& terms, InputExpansion* out) const;
+  void inputCost(const JointVector& tau, const ContactInput& contact, const Tasks& tasks,
+                 double share, CostTerms& terms, InputExpansion* out) const;
+  template <bool kExpand>
+  void forceCost(const Vector3& lambda_C, const Tasks& tasks, double share, CostTerms& terms,
+                 InputExpansion* out) const;
 
   ReducedDynamics dynamics_;
   Constraints constraints_;
+  TerminalCost terminal_;
+  std::shared_ptr<const LqrTerminalCost> lqr_value_;  ///< null unless the terminal cost is it
   double sin_tilt_limit_, cos_tilt_limit_;
 };
 

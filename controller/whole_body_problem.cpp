@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "controller/contact_input.hpp"
 #include "controller/euler_rates.hpp"
 
 namespace ballbot {
@@ -42,8 +43,7 @@ WholeBodyProblem<NU>::WholeBodyProblem(const RobotParameters& robot, const Const
                                        const TerminalCost& terminal,
                                        const std::vector<double>& knots)
     : dynamics_(robot),
-      cost_(robot, constraints),
-      terminal_(terminal),
+      cost_(robot, constraints, terminal),
       state_share_(knots.size(), 0.0),
       tasks_(knots.size()) {
   for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
@@ -65,50 +65,56 @@ void WholeBodyProblem<NU>::setTasks(const TaskSchedule& schedule, double t0,
 }
 
 template <int NU>
-Vector3 WholeBodyProblem<NU>::forceInContact(const U& u) {
-  if constexpr (NU > kJointCount) {
-    return u.template segment<3>(kJointCount);
-  } else {
-    return Vector3::Zero();
-  }
-}
-
-template <int NU>
-Vector3 WholeBodyProblem<NU>::forceInWorld(int k, const U& u) const {
-  return tasks_[k].inContact() ? Vector3(tasks_[k].R_WC * forceInContact(u)) : Vector3::Zero();
-}
-
-template <int NU>
 void WholeBodyProblem<NU>::step(int k, const X& x, const U& u, X& next) const noexcept {
   const double H = steps_[k].H;
   const PositionVector q = x.template head<kQ>();
   const VelocityVector nu = x.template segment<kV>(kQ);
-  const PositionVector q_mid = q + 0.5 * H * EulerRates(q).rate(nu);
+  StateVector mid;
+  mid << q + 0.5 * H * EulerRates(q).rate(nu), nu;
+  const ContactWrench wrench(u, tasks_[k]);
   const VelocityVector nu_next =
-      nu + H * dynamics_.acceleration(q_mid, nu, u.template head<kJointCount>(), forceInWorld(k, u));
-  next.template head<kQ>() = q + 0.5 * H * EulerRates(q_mid).rate(nu + nu_next);
+      nu + H * dynamics_
+                   .derivative(mid, u.template head<kJointCount>(), wrench.force,
+                               NU > kJointCount + 3 ? &wrench.moment : nullptr)
+                   .template tail<kV>();
+  next.template head<kQ>() =
+      q + 0.5 * H * EulerRates(mid.template head<kQ>()).rate(nu + nu_next);
   next.template segment<kV>(kQ) = nu_next;
   for (int i = 0; i < kFilterDim; ++i)
     next[kStateDim + i] = steps_[k].next(x[kStateDim + i], u[i]);
 }
 
 template <int NU>
-void WholeBodyProblem<NU>::linearizeStep(int k, const X& x, const U& u, X& next,
-                                         Stage& lq) const noexcept {
+void WholeBodyProblem<NU>::linearize(int first, int count, const X* x, const U* u,
+                                     Stage* lq) const noexcept {
+  StateVector mid[kTogether];
+  JointVector tau[kTogether];
+  Vector3 force[kTogether], moment[kTogether];
+  ReducedDynamics::Linearization model[kTogether];
+  for (int i = 0; i < count; ++i) {
+    const PositionVector q = x[i].template head<kQ>();
+    const VelocityVector nu = x[i].template segment<kV>(kQ);
+    mid[i] << q + 0.5 * steps_[first + i].H * EulerRates(q).rate(nu), nu;
+    tau[i] = u[i].template head<kJointCount>();
+    const ContactWrench wrench(u[i], tasks_[first + i]);
+    force[i] = wrench.force;
+    moment[i] = wrench.moment;
+  }
+  dynamics_.linearize(count, mid, tau, force, model, nullptr,
+                      NU > kJointCount + 3 ? moment : nullptr);
+  for (int i = 0; i < count; ++i) {
+    linearizeStage(first + i, x[i], mid[i].template head<kQ>(), model[i], lq[i]);
+  }
+}
+
+template <int NU>
+void WholeBodyProblem<NU>::linearizeStage(int k, const X& x, const PositionVector& q_mid,
+                                          const ReducedDynamics::Linearization& model,
+                                          Stage& lq) const noexcept {
   const double H = steps_[k].H;
-  const PositionVector q = x.template head<kQ>();
   const VelocityVector nu = x.template segment<kV>(kQ);
-  const EulerRates at_start(q);
-  const PositionVector q_mid = q + 0.5 * H * at_start.rate(nu);
-  StateVector mid;
-  mid << q_mid, nu;
-  ReducedDynamics::Linearization model;
-  dynamics_.linearize(mid, u.template head<kJointCount>(), forceInWorld(k, u), model);
-  const VelocityVector nu_next = nu + H * model.f.template tail<kV>();
-  const VelocityVector nu_sum = nu + nu_next;
-  const EulerRates at_mid(q_mid);
-  next.template head<kQ>() = q + 0.5 * H * at_mid.rate(nu_sum);
-  next.template segment<kV>(kQ) = nu_next;
+  const EulerRates at_start(x.template head<kQ>()), at_mid(q_mid);
+  const VelocityVector nu_sum = 2 * nu + H * model.f.template tail<kV>();  // nu + nu+
 
   // q_mid = q_mid(q, nu)
   const auto G_start = at_start.derivative(nu);
@@ -139,22 +145,17 @@ void WholeBodyProblem<NU>::linearizeStep(int k, const X& x, const U& u, X& next,
   A.template block<8, 8>(kQ, kQ) = nu_nu;
 
   Eigen::Matrix<double, kV, NU> nu_u;
-  nu_u.template leftCols<kJointCount>() = H * model.df_dtau.template bottomRows<kV>();
-  if constexpr (NU > kJointCount) {
-    if (tasks_[k].inContact()) {
-      nu_u.template rightCols<3>().noalias() =
-          H * model.df_dlambda.template bottomRows<kV>() * tasks_[k].R_WC;
-    } else {
-      nu_u.template rightCols<3>().setZero();
-    }
-  }
+  nu_u.template leftCols<kJointCount>() = model.df_dtau.template bottomRows<kV>();
+  setContactColumns<NU - kJointCount>(tasks_[k], model.df_dlambda.template bottomRows<kV>(),
+                                      model.df_dmoment.template bottomRows<kV>(),
+                                      nu_u.template rightCols<NU - kJointCount>());
+  nu_u *= H;
   auto B = lq.B();
   B.template block<8, NU>(0, 0) = 0.5 * H * tTimes(at_mid, nu_u);
   B.template block<8, NU>(kQ, 0) = nu_u;
 
   for (int i = 0; i < kFilterDim; ++i) {
     const FilterStep& filter = steps_[k];
-    next[kStateDim + i] = filter.next(x[kStateDim + i], u[i]);
     A(kStateDim + i, kStateDim + i) = filter.a;
     B(kStateDim + i, i) = 1 - filter.a;
   }
@@ -165,7 +166,7 @@ void WholeBodyProblem<NU>::addCost(int k, const X& x, const U& u, CostTerms& ter
   const Tasks& tasks = tasks_[k];
   const FilterStep& filter = steps_[k];
   cost_.addState(x.template head<kStateDim>(), tasks, state_share_[k], terms);
-  cost_.addInput(u.template head<kJointCount>(), forceInContact(u), tasks, filter.H, terms);
+  cost_.addInput(u.template head<kJointCount>(), contactInput(u), tasks, filter.H, terms);
   for (int i = 0; i < kFilterDim; ++i) {
     terms.value[kWheelTorqueCost] +=
         0.5 * tasks.wheel_torque_weight * filter.cost(x[kStateDim + i], u[i]);
@@ -173,21 +174,35 @@ void WholeBodyProblem<NU>::addCost(int k, const X& x, const U& u, CostTerms& ter
 }
 
 template <int NU>
-void WholeBodyProblem<NU>::approximateCost(int k, const X& x, const U& u, CostTerms& terms,
-                                           Stage& lq) const noexcept {
+void WholeBodyProblem<NU>::approximate(int first, int count, const X* x, const U* u,
+                                       CostTerms* terms, Stage* lq) const noexcept {
+  ReducedDynamics::EndEffectorLinearization tip[kTogether];
+  StateVector robot[kTogether];
+  for (int i = 0; i < count; i += kTogether) {
+    const int now = std::min(kTogether, count - i);
+    linearize(first + i, now, x + i, u + i, lq + i);
+    for (int j = 0; j < now; ++j) robot[j] = x[i + j].template head<kStateDim>();
+    dynamics_.linearizeEndEffector(now, robot, tip);
+    for (int j = 0; j < now; ++j) {
+      approximateCost(first + i + j, x[i + j], u[i + j], tip[j], terms[i + j], lq[i + j]);
+    }
+  }
+}
+
+template <int NU>
+void WholeBodyProblem<NU>::approximateCost(int k, const X& x, const U& u,
+                                           const ReducedDynamics::EndEffectorLinearization& tip,
+                                           CostTerms& terms, Stage& lq) const noexcept {
   const Tasks& tasks = tasks_[k];
   const FilterStep& f = steps_[k];
   std::fill(std::begin(lq.Wxx), std::end(lq.Wxx), 0.0);
-  cost_.expandState(x.template head<kStateDim>(), tasks, state_share_[k], terms,
+  cost_.expandState(x.template head<kStateDim>(), tip, tasks, state_share_[k], terms,
                     {lq.Wxx, Stage::kX, kMpcStateDim});
   InputExpansion input;
-  cost_.expandInput(u.template head<kJointCount>(), forceInContact(u), tasks, f.H, terms, input);
-
+  cost_.expandInput(u.template head<kJointCount>(), contactInput(u), tasks, f.H, terms, input);
   auto R = lq.R();
   auto r = lq.r();
-  R.diagonal() = input.diagonal.template head<NU>();
-  r = input.gradient.template head<NU>();
-  if constexpr (NU > kJointCount) R.template bottomRightCorner<3, 3>() = input.force_hessian;
+  setInputExpansion<NU>(input, R, r);
 
   // 1/2 w (H u^2 + 2 c1 u d + c2 d^2), d = u - x_f
   auto Q = lq.Q();
@@ -208,18 +223,18 @@ void WholeBodyProblem<NU>::approximateCost(int k, const X& x, const U& u, CostTe
 
 template <int NU>
 void WholeBodyProblem<NU>::addFinalCost(const X& x, CostTerms& terms) const noexcept {
-  cost_.addFinal(x.template head<kStateDim>(), tasks_.back(), state_share_.back(),
-                 terminal_.state_scale, terms);
+  cost_.addFinal(x.template head<kStateDim>(), tasks_.back(), state_share_.back(), terms);
 }
 
 template <int NU>
 void WholeBodyProblem<NU>::approximateFinalCost(const X& x, CostTerms& terms,
                                                 ValueFunction<kMpcStateDim>& value) const noexcept {
-  cost_.expandFinal(x.template head<kStateDim>(), tasks_.back(), state_share_.back(),
-                    terminal_.state_scale, terms, value);
+  cost_.expandFinal(x.template head<kStateDim>(), tasks_.back(), state_share_.back(), terms,
+                    value);
 }
 
 template class WholeBodyProblem<6>;
 template class WholeBodyProblem<9>;
+template class WholeBodyProblem<12>;
 
 }  // namespace ballbot

@@ -8,13 +8,8 @@
 
 namespace ballbot {
 
-/// What happens after the horizon, as a cost of its last state.
-struct TerminalCost {
-  double state_scale = 0.5;  ///< the state's cost rate times this [s]
-};
-
-/// The whole-body problem on a grid of knots: state (q, nu, x_f), input (tau, lambda_C) or, with
-/// NU = 6, tau alone; inputs are held over a step.
+/// The whole-body problem on a grid of knots: state (q, nu, x_f); input tau (NU = 6), with contact
+/// forces (NU = 9), with forces and moments (NU = 12); inputs are held over a step.
 ///
 /// One step of length H: positions drift half a step, velocities get the acceleration found there,
 /// positions drift with the mean velocity. Second order but for the Coriolis terms, which see the
@@ -45,20 +40,24 @@ class WholeBodyProblem final : public OptimalControlProblem<kMpcStateDim, NU> {
   void step(int k, const X& x, const U& u, X& next) const noexcept override;
   void addCost(int k, const X& x, const U& u, CostTerms& terms) const noexcept override;
   void addFinalCost(const X& x, CostTerms& terms) const noexcept override;
-  void linearizeStep(int k, const X& x, const U& u, X& next, Stage& lq) const noexcept override;
-  void approximateCost(int k, const X& x, const U& u, CostTerms& terms,
-                       Stage& lq) const noexcept override;
+  void approximate(int first, int count, const X* x, const U* u, CostTerms* terms,
+                   Stage* lq) const noexcept override;
   void approximateFinalCost(const X& x, CostTerms& terms,
                             ValueFunction<kMpcStateDim>& value) const noexcept override;
 
  private:
-  /// Force on the end-effector in W; zero without contact.
-  Vector3 forceInWorld(int k, const U& u) const;
-  static Vector3 forceInContact(const U& u);
+  /// Four stages, or what is left of them, together: the dynamics take little longer for them than
+  /// for one.
+  static constexpr int kTogether = 4;
+  void linearize(int first, int count, const X* x, const U* u, Stage* lq) const noexcept;
+  void linearizeStage(int k, const X& x, const PositionVector& q_mid,
+                      const ReducedDynamics::Linearization& model, Stage& lq) const noexcept;
+  void approximateCost(int k, const X& x, const U& u,
+                       const ReducedDynamics::EndEffectorLinearization& tip, CostTerms& terms,
+                       Stage& lq) const noexcept;
 
   ReducedDynamics dynamics_;
   WholeBodyCost cost_;
-  TerminalCost terminal_;
   std::vector<FilterStep> steps_;   ///< one per stage; H is the stage's length
   std::vector<double> state_share_; ///< trapezoidal weight of each knot's state cost [s]
   std::vector<Tasks> tasks_;        ///< one per knot

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "controller/cost_terms.hpp"
 #include "core/error.hpp"
 
 namespace ballbot {
@@ -44,6 +45,12 @@ class TableBuilder {
     for (int i = 0; i < 3; ++i) add(name + "_" + kAxes[i], unit, [&](const Message& m) { return get(m)[i]; });
     return *this;
   }
+  TableBuilder& addCostTerms() {
+    for (int i = 0; i < kCostTermCount; ++i) {
+      add(costColumn(CostTerm(i)), "", [i](const Message& m) { return m.cost_terms[i]; });
+    }
+    return *this;
+  }
   template <typename GetQ, typename GetNu>
   TableBuilder& addState(GetQ q, GetNu nu) {
     for (int i = 0; i < 8; ++i) add(kPositions[i].first, kPositions[i].second, [&](const Message& m) { return q(m)[i]; });
@@ -67,6 +74,8 @@ const std::vector<double>& LogTable::column(const std::string& column_name) cons
   }
   throw InputError(fmt::format("table '{}' has no column '{}'", name, column_name));
 }
+
+std::string costColumn(CostTerm term) { return std::string("cost_") + costTermName(term); }
 
 std::vector<LogTable> logTables(const RunLog& log) {
   using namespace ballbot_msgs;
@@ -134,6 +143,11 @@ std::vector<LogTable> logTables(const RunLog& log) {
       .add("contact_state", "", [](const plan_report& m) { return m.contact_state; })
       .addVector("contact_asked_W", "N", [](const plan_report& m) { return m.contact_asked_W; })
       .addVector("contact_counted_on_W", "N", [](const plan_report& m) { return m.contact_counted_on_W; })
+      .add("status", "", [](const plan_report& m) { return m.status; })
+      .add("fallback", "", [](const plan_report& m) { return m.fallback; })
+      .add("predicted_decrease", "", [](const plan_report& m) { return m.predicted_decrease; })
+      .add("regularisation", "", [](const plan_report& m) { return m.regularisation; })
+      .addCostTerms()
       .into(tables);
   return tables;
 }

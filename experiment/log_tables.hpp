@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "controller/cost_terms.hpp"
 #include "cosim/log_reader.hpp"
 
 namespace ballbot {
@@ -21,6 +22,9 @@ struct LogTable {
   /// @throw InputError if there is no such column.
   const std::vector<double>& column(const std::string& column_name) const;
 };
+
+/// Column of the table `plan` that holds a term of the cost.
+std::string costColumn(CostTerm term);
 
 /// All channels of a log that hold anything: sensors, truth, estimate, command, plan.
 std::vector<LogTable> logTables(const RunLog& log);

@@ -1,5 +1,8 @@
 #include "experiment/robot_controller.hpp"
 
+#include <algorithm>
+#include <type_traits>
+
 #include "controller/law_factory.hpp"
 #include "controller/policy_sample_blob.hpp"
 #include "core/config_reader.hpp"
@@ -55,11 +58,12 @@ void RobotController::onSensors(SimTime now, const SensorFrame& sensors, DueTask
 void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutput& out) {
   const std::int64_t started = wall_clock_ns_ ? wall_clock_ns_() : 0;
   const PlanReport report = law_->plan(now, sensing_.estimate(now).x, sensors.joint_angle);
-  if (wall_clock_ns_ && plan_times_ns_.size() < plan_times_ns_.capacity()) {
-    plan_times_ns_.push_back(wall_clock_ns_() - started);
+  if (wall_clock_ns_ && plan_times_.size() < plan_times_.capacity()) {
+    plan_times_.push_back({wall_clock_ns_() - started, report.times});
   }
   ++plans_;
   if (!report.accepted) ++plans_refused_;
+  if (report.fallback) ++plans_on_fallback_;
   out.has_plan = true;
   out.plan.sim_time_ns = toNs(now);
   out.plan.acts_from_ns = toNs(now + plan_latency_);
@@ -71,6 +75,12 @@ void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutpu
   out.plan.contact_state = report.contact.state;
   Eigen::Map<Vector3>{out.plan.contact_asked_W} = report.contact.asked_W;
   Eigen::Map<Vector3>{out.plan.contact_counted_on_W} = report.contact.counted_on_W;
+  out.plan.status = static_cast<std::int8_t>(report.status);
+  out.plan.fallback = report.fallback;
+  out.plan.predicted_decrease = report.predicted_decrease;
+  out.plan.regularisation = report.regularisation;
+  static_assert(std::extent<decltype(out.plan.cost_terms)>::value == kCostTermCount);
+  std::copy(report.terms.value.begin(), report.terms.value.end(), out.plan.cost_terms);
   if (plan_latency_ == SimDuration::zero() || !has_policy_) {
     // The first plan acts at once: it was made while the stand still held the robot.
     law_->activatePlan();
@@ -93,9 +103,10 @@ void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutp
   law_->commanded(now, tracker_period_, out.command.torque);
 }
 
-void RobotController::timePlans(std::function<std::int64_t()> wall_clock_ns, std::size_t capacity) {
-  wall_clock_ns_ = std::move(wall_clock_ns);
-  plan_times_ns_.reserve(capacity);  // the control step must not allocate
+void RobotController::timePlans(PhaseClock wall_clock_ns, std::size_t capacity) {
+  wall_clock_ns_ = wall_clock_ns;
+  law_->setClock(wall_clock_ns);
+  plan_times_.reserve(capacity);  // the control step must not allocate
 }
 
 StateBlob RobotController::saveState() const {
@@ -108,13 +119,14 @@ StateBlob RobotController::saveState() const {
   out.put(toNs(pending_since_));
   out.put(plans_);
   out.put(plans_refused_);
+  out.put(plans_on_fallback_);
   out.put(ticks_saturated_);
   out.put(ticks_not_finite_);
-  return out.seal("controller", 3);
+  return out.seal("controller", 4);
 }
 
 void RobotController::restoreState(const StateBlob& blob) {
-  BlobReader in(blob, "controller", 3);
+  BlobReader in(blob, "controller", 4);
   sensing_.restore(in);
   law_->restoreState(in.getBlob());
   law_->setContactForce(sensing_.contactForce());
@@ -124,6 +136,7 @@ void RobotController::restoreState(const StateBlob& blob) {
   pending_since_ = simTimeFromNs(in.get<std::int64_t>());
   plans_ = in.get<std::int64_t>();
   plans_refused_ = in.get<std::int64_t>();
+  plans_on_fallback_ = in.get<std::int64_t>();
   ticks_saturated_ = in.get<std::int64_t>();
   ticks_not_finite_ = in.get<std::int64_t>();
   in.finish();
@@ -134,6 +147,7 @@ std::map<std::string, double> RobotController::counters() const {
   std::map<std::string, double> out = rejectionMetrics(sensing_.estimator().rejections());
   out["plans"] = number(plans_);
   out["plans_refused"] = number(plans_refused_);
+  out["plans_on_fallback"] = number(plans_on_fallback_);
   out["ticks_saturated"] = number(ticks_saturated_);
   out["ticks_not_finite"] = number(ticks_not_finite_);
   return out;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -16,6 +15,12 @@
 
 namespace ballbot {
 
+/// Wall-clock time of one plan() call and of its phases.
+struct PlanTimes {
+  std::int64_t total_ns = 0;
+  PhaseTimes phases;
+};
+
 /// The whole controller of a run: estimator, balancing law and tracker, each at its own period.
 /// It learns about the robot from sensor frames only.
 class RobotController final : public SteppedController {
@@ -29,8 +34,8 @@ class RobotController final : public SteppedController {
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;
 
-  /// Counts over the run, for the summary: plans made and refused, ticks with saturated torque or
-  /// a command that was not finite, and what the estimator rejected.
+  /// Counts over the run, for the summary: plans made, refused and made while the LQR stood in, ticks
+  /// with saturated torque or a command that was not finite, and what the estimator rejected.
   std::map<std::string, double> counters() const;
 
   /// For those who hold the estimator's own judgement against the truth.
@@ -38,8 +43,8 @@ class RobotController final : public SteppedController {
 
   /// Measures the wall-clock time of each plan() call, up to `capacity` of them [ns]; a fact of the
   /// machine, never part of a result.
-  void timePlans(std::function<std::int64_t()> wall_clock_ns, std::size_t capacity);
-  const std::vector<std::int64_t>& planTimes() const { return plan_times_ns_; }
+  void timePlans(PhaseClock wall_clock_ns, std::size_t capacity);
+  const std::vector<PlanTimes>& planTimes() const { return plan_times_; }
 
  private:
   void plan(SimTime now, const SensorFrame& sensors, ControlOutput& out);
@@ -55,10 +60,11 @@ class RobotController final : public SteppedController {
   bool plan_pending_ = false;
   bool has_policy_ = false;
   SimTime pending_since_{};
-  std::int64_t plans_ = 0, plans_refused_ = 0, ticks_saturated_ = 0, ticks_not_finite_ = 0;
+  std::int64_t plans_ = 0, plans_refused_ = 0, plans_on_fallback_ = 0;
+  std::int64_t ticks_saturated_ = 0, ticks_not_finite_ = 0;
 
-  std::function<std::int64_t()> wall_clock_ns_;
-  std::vector<std::int64_t> plan_times_ns_;
+  PhaseClock wall_clock_ns_ = nullptr;
+  std::vector<PlanTimes> plan_times_;
 };
 
 }  // namespace ballbot

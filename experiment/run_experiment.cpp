@@ -27,7 +27,7 @@ namespace {
 
 using WallTime = std::chrono::steady_clock;
 
-std::int64_t wallNs() {
+std::int64_t wallNs() noexcept {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(WallTime::now().time_since_epoch()).count();
 }
 

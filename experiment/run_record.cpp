@@ -19,6 +19,16 @@ double percentileUs(const std::vector<std::int64_t>& sorted_ns, double p) {
   return 1e-3 * static_cast<double>(sorted_ns[static_cast<std::size_t>(p * last)]);
 }
 
+/// Percentiles over all plans of what `get` takes from each.
+template <typename Get>
+Json percentilesUs(const std::vector<PlanTimes>& plans, Get get) {
+  std::vector<std::int64_t> sorted;
+  for (const PlanTimes& plan : plans) sorted.push_back(get(plan));
+  std::sort(sorted.begin(), sorted.end());
+  return {{"p50", percentileUs(sorted, 0.5)}, {"p99", percentileUs(sorted, 0.99)},
+          {"max", percentileUs(sorted, 1.0)}};
+}
+
 }  // namespace
 
 void writeManifest(const Scenario& scenario, const RunFolder& folder) {
@@ -68,7 +78,7 @@ void writeSummary(const Scenario& scenario, const RunResult& result, const RunFo
 
 void writeTiming(const RunResult& result,
                  const RemoteParticipant::LinkStatistics& link,
-                 const std::vector<std::int64_t>& plan_times_ns, std::int64_t log_bytes,
+                 const std::vector<PlanTimes>& plan_times, std::int64_t log_bytes,
                  const RunFolder& folder) {
   Json t;
   t["wall_s"] = result.wall_seconds;
@@ -76,11 +86,12 @@ void writeTiming(const RunResult& result,
   t["requests"] = link.requests;
   t["requests_repeated"] = link.repeated;
   t["log_bytes"] = log_bytes;
-  if (!plan_times_ns.empty()) {
-    std::vector<std::int64_t> sorted = plan_times_ns;
-    std::sort(sorted.begin(), sorted.end());
-    t["plan_us"] = {{"p50", percentileUs(sorted, 0.5)}, {"p99", percentileUs(sorted, 0.99)},
-                    {"max", percentileUs(sorted, 1.0)}};
+  if (!plan_times.empty()) {
+    t["plan_us"] = percentilesUs(plan_times, [](const PlanTimes& p) { return p.total_ns; });
+    t["plan_phases_us"] = {
+        {"approximation", percentilesUs(plan_times, [](const PlanTimes& p) { return p.phases.approximation_ns; })},
+        {"riccati", percentilesUs(plan_times, [](const PlanTimes& p) { return p.phases.riccati_ns; })},
+        {"line_search", percentilesUs(plan_times, [](const PlanTimes& p) { return p.phases.line_search_ns; })}};
   }
   writeTextFile(folder.timingFile(), t.dump(2) + "\n");
 }

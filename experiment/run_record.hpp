@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "cosim/remote_participant.hpp"
+#include "experiment/robot_controller.hpp"
 #include "experiment/run_experiment.hpp"
 
 namespace ballbot {
@@ -19,10 +20,10 @@ nlohmann::ordered_json summaryJson(const Scenario& scenario, const RunResult& re
 void writeSummary(const Scenario& scenario, const RunResult& result, const RunFolder& folder);
 
 /// Wall-clock facts: the only file of a run folder that differs between two equal runs.
-/// @param plan_times_ns  duration of each plan() call [ns]
+/// @param plan_times  of each plan() call
 void writeTiming(const RunResult& result,
                  const RemoteParticipant::LinkStatistics& link,
-                 const std::vector<std::int64_t>& plan_times_ns, std::int64_t log_bytes,
+                 const std::vector<PlanTimes>& plan_times, std::int64_t log_bytes,
                  const RunFolder& folder);
 
 }  // namespace ballbot

@@ -1,6 +1,9 @@
 #include "experiment/run_report.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -145,6 +148,28 @@ PlotGroup armGroup(const std::vector<LogTable>& tables) {
   return group;
 }
 
+/// What plans cost, and of what; nothing for laws that solve nothing.
+std::optional<PlotGroup> planGroup(const std::vector<LogTable>& tables) {
+  const LogTable* plan = findTable(tables, "plan");
+  if (!plan) return std::nullopt;
+  std::vector<std::pair<double, CostTerm>> shares;
+  for (int i = 0; i < kCostTermCount; ++i) {
+    double sum = 0;
+    for (const double v : plan->column(costColumn(CostTerm(i)))) sum += std::abs(v);
+    if (sum > 0) shares.push_back({sum, CostTerm(i)});
+  }
+  if (shares.empty()) return std::nullopt;
+  std::sort(shares.begin(), shares.end(), std::greater<>());
+  shares.resize(std::min<std::size_t>(shares.size(), 4));
+  AxesBuilder cost(tables, "cost of the plan", "");
+  cost.line("plan", "cost", "whole", SeriesStyle::kMeasured, 0);
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    cost.line("plan", costColumn(shares[i].second), costTermName(shares[i].second),
+              SeriesStyle::kMeasured, static_cast<int>(i) + 1);
+  }
+  return PlotGroup{"Plans", "What the planned motion costs, and its largest parts.", {cost.axes()}, {}};
+}
+
 std::vector<ReportPhase> phasesOf(const Scenario& scenario, const std::vector<Push>& pushes) {
   std::vector<ReportPhase> phases;
   if (scenario.release > kSimStart) {
@@ -204,6 +229,7 @@ void writeRunReport(const Scenario& scenario, const RunResult& result, const Run
   const EeReference reference = readEeReference(scenario);
   data.groups = {ballGroup(tables), baseGroup(tables), handGroup(log, reference),
                  torqueGroup(tables, robot), armGroup(tables)};
+  if (auto plans = planGroup(tables)) data.groups.push_back(std::move(*plans));
   const SurroundingsParameters surroundings = surroundingsOf(scenario.tree);
   if (auto contact = contactGroup(log, robot, surroundings)) {
     data.groups.insert(data.groups.begin(), std::move(*contact));

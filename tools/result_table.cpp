@@ -25,6 +25,11 @@ std::string resultTable(const Scenario& scenario, const RunResult& result) {
   if (!rejected.empty()) {
     out += fmt::format("  {:<32} {}\n", "rejected by the estimator", rejectionText(rejected));
   }
+  const auto refused = result.metrics.find("plans_refused");
+  if (refused != result.metrics.end() && refused->second > 0) {
+    out += fmt::format("  {:<32} {:.0f} of {:.0f}; see docs/troubleshooting/plans-refused.md\n",
+                       "plans refused", refused->second, result.metrics.at("plans"));
+  }
   out += fmt::format("  {:<32} {}\n", "trajectory digest", result.trajectory_digest);
   out += fmt::format("  {:<32} {:.2f} s in {:.2f} s, {:.2f} times real time\n", "simulated",
                      toSeconds(result.end), result.wall_seconds,

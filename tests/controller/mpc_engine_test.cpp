@@ -50,7 +50,7 @@ class MpcEngineTest : public testing::Test {
     MpcPolicy seed = engine.emptyPolicy();
     for (auto& knot : seed.knots()) knot.x << lqr_.equilibrium.x, Vector3::Zero();
     for (auto& control : seed.controls()) {
-      control.u << lqr_.equilibrium.tau, Vector3::Zero();
+      control.u << lqr_.equilibrium.tau, ContactInput::Zero();
       control.K.topLeftCorner<kJointCount, kStateDim>() = lqr_.K;
     }
     seed.setValid(kSimStart);

@@ -121,7 +121,8 @@ TEST_F(MpcLawTest, FallsBackToTheLqrWithoutPlansAndReturnsWithThem) {
   for (int ms = 14; ms <= 154; ms += 14) {
     const PlanReport report = law.plan(at(ms), lost, joints);
     EXPECT_FALSE(report.accepted);
-    EXPECT_STREQ(report.status, "state not finite");
+    EXPECT_EQ(report.status, PlanStatus::kStateNotFinite);
+    EXPECT_STREQ(planStatusName(report.status), "state not finite");
     EXPECT_EQ(report.fallback, ms > 100) << ms;
     law.activatePlan();
   }
@@ -136,6 +137,28 @@ TEST_F(MpcLawTest, FallsBackToTheLqrWithoutPlansAndReturnsWithThem) {
   law.activatePlan();
   law.sample(at(168), again);
   EXPECT_LT((again.feedback - mpc.feedback).norm(), 0.1 * mpc.feedback.norm());
+}
+
+TEST_F(MpcLawTest, AProblemThatIsNotFiniteIsRefusedAndTheRobotStaysUp) {
+  MpcConfig c = config();
+  auto schedule = std::make_shared<TaskSchedule>(*c.schedule);
+  schedule->ball_position.step(
+      1, Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  c.schedule = schedule;
+  MpcLaw law(robot_, c);
+  const auto run = runClosedLoop(law, tracker(), robot_, atRest(), 5);
+  ASSERT_NEAR(run.back().time, 5, 1e-3) << "fell";
+  for (const auto& s : run) {
+    ASSERT_LT(s.x.head<2>().norm(), 0.15) << "at " << s.time << " s";
+    if (s.time > 1.02) {
+      ASSERT_FALSE(s.plan.accepted);
+      ASSERT_EQ(s.plan.status, PlanStatus::kNotFinite);
+    }
+    if (s.time > 1.15) {
+      ASSERT_TRUE(s.plan.fallback) << "at " << s.time << " s";
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(law.failedPlans()), 4 / 0.014, 2);
 }
 
 TEST_F(MpcLawTest, StaysUpWhileNobodyPlans) {
@@ -194,17 +217,23 @@ TEST_F(MpcLawTest, ContinuesBitForBitFromASavedState) {
 
 TEST_F(MpcLawTest, NoCallOfTheControlStepAllocates) {
   if (!allocationsAreCounted()) GTEST_SKIP() << "a sanitizer owns malloc";
+  applyOverride(tree_, "mpc.contact_forces=true");
+  applyOverride(tree_, "mpc.contact_moments=true");
   MpcLaw law(robot_, config());
   const StateVector x = atRest();
   const JointVector joints = jointsAtRest();
   PolicySample sample;
+  const PdTracker pd(tracker());
+  ActuatorCommand command;
   const auto before = allocationCount();
   bool accepted = true;
   for (int i = 0; i < 10; ++i) {
     const SimTime now = simTimeFromNs(i * 14'000'000LL);
+    law.setContactForce(Vector3(-3, 0, 0));
     accepted = law.plan(now, x, joints).accepted && accepted;
     law.activatePlan();
     law.sample(now, sample);
+    accepted = pd.step(sample, x, joints, JointVector::Zero(), command) == TrackStatus::kOk && accepted;
     law.commanded(now, std::chrono::microseconds(400), sample.torque);
   }
   EXPECT_EQ(allocationCount(), before);
@@ -258,6 +287,16 @@ TEST_F(MpcLawTest, ALawThatSolvesInAThreadCannotBeSaved) {
     FAIL() << "no error";
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("mpc.solver_thread: true cannot be saved"));
+  }
+}
+
+TEST_F(MpcLawTest, AContactTaskNeedsContactForces) {
+  applyOverride(tree_, "mpc.tasks.contact_force={weight: 1}");
+  try {
+    config();
+    FAIL() << "no error";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("contact_force needs controller.mpc.contact_forces: true"));
   }
 }
 

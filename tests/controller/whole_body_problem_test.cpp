@@ -11,7 +11,7 @@
 namespace ballbot {
 namespace {
 
-constexpr int NU = 9;
+constexpr int NU = 12;
 using Problem = WholeBodyProblem<NU>;
 using X = Problem::X;
 using U = Problem::U;
@@ -54,6 +54,7 @@ Tasks randomTasks(Draw& draw) {
   weights(t.arm_position_weight, 5);
   weights(t.arm_rate_weight, 0.5);
   weights(t.contact_force_weight, 1);
+  weights(t.contact_moment_weight, 2);
   t.yaw_weight = 20;
   t.wheel_torque_weight = 2;
   t.arm_torque_weight = 0.1;
@@ -66,6 +67,7 @@ Tasks randomTasks(Draw& draw) {
   t.yaw = draw();
   t.arm_position = draw.vector<3>(1);
   t.contact_force_C = Vector3(0, 0, 8);
+  t.contact_moment_C = draw.vector<3>(1);
   t.R_WC = contactFrame(Vector3(-0.8, 0.6, 0));
   return t;
 }
@@ -84,8 +86,20 @@ class WholeBodyProblemTest : public testing::TestWithParam<int> {
     x_.tail<3>() = draw.vector<3>(2);
     u_.head<3>() = draw.vector<3>(3);
     u_.segment<3>(3) = draw.vector<3>(8);
-    u_.tail<3>() = Vector3(0, 0, 6) + draw.vector<3>(2);
+    u_.segment<3>(kJointCount) = Vector3(0, 0, 6) + draw.vector<3>(2);
+    u_.tail<3>() = draw.vector<3>(2);
   }
+  /// Where barriers are relaxed.
+  void beyondEveryLimit() {
+    x_[kPitch] = 0.5;
+    x_[kArm2] = -2.1;
+    x_[kArm3] = 2.7;
+    x_.segment<3>(kPositionDim + kArmRate1) << 6.4, -5.9, -7;
+    u_.head<6>() << 4.2, -3.9, -5, 18.4, -17.9, -20;
+    u_.segment<3>(kJointCount) << 5, -3, 4;
+  }
+  void expectGradientsToBeDifferences();
+
   RobotParameters robot_ = exampleRobot();
   Problem problem_{robot_, Constraints(robot_), FrequencyShaping{20, 300}, TerminalCost{},
                    {0, 0.02, 0.05}};
@@ -106,10 +120,8 @@ double finalCost(const Problem& problem, const X& x) {
 
 TEST_P(WholeBodyProblemTest, AAndBAreCentralDifferencesOfTheStep) {
   Stage lq;
-  X next, expected;
-  problem_.linearizeStep(1, x_, u_, next, lq);
-  problem_.step(1, x_, u_, expected);
-  EXPECT_LT((next - expected).cwiseAbs().maxCoeff(), 1e-12);
+  CostTerms terms;
+  problem_.approximate(1, 1, &x_, &u_, &terms, &lq);
   // Fourth order, so that a wide step serves: its rounding error stays near 1e-10.
   const double h = 1e-4;
   for (int i = 0; i < kMpcStateDim + NU; ++i) {
@@ -128,13 +140,13 @@ TEST_P(WholeBodyProblemTest, AAndBAreCentralDifferencesOfTheStep) {
   }
 }
 
-TEST_P(WholeBodyProblemTest, CostGradientsAreCentralDifferences) {
+void WholeBodyProblemTest::expectGradientsToBeDifferences() {
   Stage lq;
   CostTerms terms, expected;
-  problem_.approximateCost(0, x_, u_, terms, lq);
+  problem_.approximate(0, 1, &x_, &u_, &terms, &lq);
   problem_.addCost(0, x_, u_, expected);
   for (int i = 0; i < kCostTermCount; ++i) {
-    EXPECT_NEAR(terms.value[i], expected.value[i], 1e-13) << costTermName(CostTerm(i));
+    EXPECT_NEAR(terms.value[i], expected.value[i], 1e-13 * (1 + std::abs(expected.value[i]))) << costTermName(CostTerm(i));
   }
   const double h = 1e-5;
   for (int i = 0; i < kMpcStateDim; ++i) {
@@ -142,15 +154,27 @@ TEST_P(WholeBodyProblemTest, CostGradientsAreCentralDifferences) {
     a[i] += h;
     b[i] -= h;
     const double difference = (cost(problem_, a, u_) - cost(problem_, b, u_)) / (2 * h);
-    EXPECT_NEAR(lq.q()[i], difference, 1e-7) << "state " << i;
+    EXPECT_NEAR(lq.q()[i], difference, 1e-7 * (1 + 0.1 * std::abs(difference))) << "state " << i;
   }
   for (int i = 0; i < NU; ++i) {
     U a = u_, b = u_;
     a[i] += h;
     b[i] -= h;
     const double difference = (cost(problem_, x_, a) - cost(problem_, x_, b)) / (2 * h);
-    EXPECT_NEAR(lq.r()[i], difference, 1e-7) << "input " << i;
+    EXPECT_NEAR(lq.r()[i], difference, 1e-7 * (1 + 0.1 * std::abs(difference))) << "input " << i;
   }
+}
+
+TEST_P(WholeBodyProblemTest, CostGradientsAreCentralDifferences) {
+  expectGradientsToBeDifferences();
+}
+
+TEST_P(WholeBodyProblemTest, CostGradientsAreCentralDifferencesBeyondEveryLimitToo) {
+  beyondEveryLimit();
+  CostTerms terms;
+  problem_.addCost(0, x_, u_, terms);
+  EXPECT_GT(terms.violation, 0);
+  expectGradientsToBeDifferences();
 }
 
 TEST_P(WholeBodyProblemTest, FinalCostGradientIsACentralDifference) {
@@ -167,10 +191,30 @@ TEST_P(WholeBodyProblemTest, FinalCostGradientIsACentralDifference) {
   }
 }
 
+TEST_P(WholeBodyProblemTest, TheLqrAsFinalCostHasItsGradientToo) {
+  TerminalCost terminal;
+  terminal.kind = TerminalCost::Kind::kLqr;
+  Problem problem(robot_, Constraints(robot_), FrequencyShaping{20, 300}, terminal, {0, 0.02});
+  problem.tasks(1) = problem_.tasks(1);
+  if (GetParam() % 2) problem.tasks(1).ball_position_weight.setZero();
+  ValueFunction<kMpcStateDim> value;
+  CostTerms terms;
+  problem.approximateFinalCost(x_, terms, value);
+  EXPECT_NEAR(terms.total(), finalCost(problem, x_), 1e-9 * terms.total());
+  EXPECT_GT(terms.value[kTerminalCost], 0);
+  const double h = 1e-5;
+  for (int i = 0; i < kMpcStateDim; ++i) {
+    X a = x_, b = x_;
+    a[i] += h;
+    b[i] -= h;
+    EXPECT_NEAR(value.s()[i], (finalCost(problem, a) - finalCost(problem, b)) / (2 * h), 1e-4) << i;
+  }
+}
+
 TEST_P(WholeBodyProblemTest, HessiansArePositiveSemidefinite) {
   Stage lq;
   CostTerms terms;
-  problem_.approximateCost(0, x_, u_, terms, lq);
+  problem_.approximate(0, 1, &x_, &u_, &terms, &lq);
   Eigen::Matrix<double, kMpcStateDim + NU, kMpcStateDim + NU> H;
   H.topLeftCorner<kMpcStateDim, kMpcStateDim>() = lq.Q();
   H.bottomRightCorner<NU, NU>() = lq.R();
@@ -182,14 +226,63 @@ TEST_P(WholeBodyProblemTest, HessiansArePositiveSemidefinite) {
 TEST_P(WholeBodyProblemTest, WithoutContactTheForceMovesNothing) {
   problem_.tasks(0).contact_force_weight.setZero();
   U pushed = u_;
-  pushed.tail<3>() *= 3;
+  pushed.tail<6>() *= 3;
   X a, b;
   problem_.step(0, x_, u_, a);
   problem_.step(0, x_, pushed, b);
   EXPECT_EQ(a, b);
   Stage lq;
-  problem_.linearizeStep(0, x_, u_, a, lq);
-  EXPECT_EQ(lq.B().rightCols<3>().norm(), 0);
+  CostTerms terms;
+  problem_.approximate(0, 1, &x_, &u_, &terms, &lq);
+  EXPECT_EQ(lq.B().rightCols<6>().norm(), 0);
+}
+
+TEST_P(WholeBodyProblemTest, WithoutATaskTheMomentMovesNothing) {
+  problem_.tasks(0).contact_moment_weight.setZero();
+  U twisted = u_;
+  twisted.tail<3>() *= 3;
+  X a, b;
+  problem_.step(0, x_, u_, a);
+  problem_.step(0, x_, twisted, b);
+  EXPECT_EQ(a, b);
+}
+
+TEST_P(WholeBodyProblemTest, ProblemsWithFewerInputsAreTheSameWhereThoseAreZero) {
+  const std::vector<double> knots = {0, 0.02, 0.05};
+  WholeBodyProblem<6> torques(robot_, Constraints(robot_), FrequencyShaping{20, 300}, {}, knots);
+  WholeBodyProblem<9> forces(robot_, Constraints(robot_), FrequencyShaping{20, 300}, {}, knots);
+  u_.tail<6>().setZero();
+  Tasks& tasks = problem_.tasks(0);
+  tasks.contact_force_weight.setZero();
+  torques.tasks(0) = forces.tasks(0) = tasks;
+  X a, b, c;
+  problem_.step(0, x_, u_, a);
+  forces.step(0, x_, u_.head<9>(), b);
+  torques.step(0, x_, u_.head<6>(), c);
+  EXPECT_EQ(a, b);
+  EXPECT_EQ(a, c);
+  CostTerms of_12, of_9, of_6;
+  problem_.addCost(0, x_, u_, of_12);
+  forces.addCost(0, x_, u_.head<9>(), of_9);
+  torques.addCost(0, x_, u_.head<6>(), of_6);
+  EXPECT_EQ(of_12.total(), of_9.total());
+  EXPECT_EQ(of_12.total(), of_6.total());
+}
+
+TEST_P(WholeBodyProblemTest, AStageGetsTheSameBitsAloneAndInCompany) {
+  const X x[2] = {x_, X(x_ + 0.01 * X::Ones())};
+  const U u[2] = {u_, U(0.9 * u_)};
+  Stage together[2], alone;
+  CostTerms terms_together[2], terms_alone;
+  problem_.approximate(0, 2, x, u, terms_together, together);
+  problem_.approximate(1, 1, &x[1], &u[1], &terms_alone, &alone);
+  EXPECT_EQ(together[1].A(), alone.A());
+  EXPECT_EQ(together[1].B(), alone.B());
+  EXPECT_EQ(together[1].Q(), alone.Q());
+  EXPECT_EQ(together[1].R(), alone.R());
+  EXPECT_EQ(together[1].q(), alone.q());
+  EXPECT_EQ(together[1].r(), alone.r());
+  EXPECT_EQ(terms_together[1].value, terms_alone.value);
 }
 
 TEST_P(WholeBodyProblemTest, TheStepConvergesToTheDifferentialEquation) {

@@ -50,6 +50,15 @@ TEST(Scenarios, BalanceAndPushPassWithTheLqrAlone) {
   }
 }
 
+/// In the program itself: there Simbody's library brings an old SUNDIALS along.
+TEST(Scenarios, BalancePassesOnTheContinuousEngine) {
+  const TemporaryFolder folder;
+  const Finished run =
+      runBallbot({"run", scenarioPath("balance"), "--quiet", "--json", "--no-report", "--in-process", "--out",
+                  folder / "run", "--set", "controller.mpc.engine=continuous", "--set", "duration_s=5"}, 600);
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+}
+
 TEST(Requirements, AMissedOneGivesExitCodeOne) {
   const TemporaryFolder folder;
   const Finished run =

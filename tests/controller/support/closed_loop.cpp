@@ -26,6 +26,7 @@ std::vector<ClosedLoopSample> runClosedLoop(ControlLaw& law, const TrackerConfig
                                             const RobotParameters& robot, const StateVector& x0,
                                             double duration_s, const ClosedLoopOptions& options) {
   const PdTracker tracker(tracker_config);
+  const ReducedDynamics dynamics(robot);
   LaggedPlant plant(robot, options.lag, x0);
   ActuatorCommand command;
   std::vector<ClosedLoopSample> out;
@@ -33,11 +34,21 @@ std::vector<ClosedLoopSample> runClosedLoop(ControlLaw& law, const TrackerConfig
   const int steps = static_cast<int>(std::lround(duration_s / LaggedPlant::kStep));
   int activate_at = -1;
   StateVector x = x0;
+  PlanReport report;
   for (int k = 0; k < steps; ++k) {
     const SimTime now = simTimeFromNs(k * step_ns);
+    const double t = k * LaggedPlant::kStep;
+    if (options.touch) {
+      plant.touch = [&options, t](const ReducedDynamics::EndEffector& tip) {
+        return options.touch(t, tip);
+      };
+    }
     if (k % 6 == 0) x = measured(plant.x(), options.noise, k);  // the estimator's 400 Hz
+    if (options.touch) {
+      law.setContactForce(options.touch(t, dynamics.endEffector(plant.x())));
+    }
     if (k % options.plan_steps == 0) {
-      law.plan(now, x, plant.jointAngle());
+      report = law.plan(now, x, plant.jointAngle());
       activate_at = k == 0 ? 0 : k + options.latency_steps;
     }
     if (k == activate_at) law.activatePlan();
@@ -48,9 +59,8 @@ std::vector<ClosedLoopSample> runClosedLoop(ControlLaw& law, const TrackerConfig
       break;
     }
     law.commanded(now, SimDuration(step_ns), command.torque);
-    const double t = k * LaggedPlant::kStep;
     plant.step(command.torque, options.push ? options.push(t) : Vector3::Zero());
-    out.push_back({t, plant.x(), command.torque, plant.torque(), plant.tilt()});
+    out.push_back({t, plant.x(), command.torque, plant.torque(), plant.tilt(), report});
     if (!(plant.tilt() < 1)) break;
   }
   return out;

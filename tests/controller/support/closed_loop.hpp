@@ -17,6 +17,8 @@ struct ClosedLoopOptions {
   double noise = 1;        ///< times (angles 2 mrad, base rates 0.01 rad/s, joint rates 0.02 rad/s)
   LagParameters lag;
   std::function<Vector3(double)> push;  ///< force on the base over time [N]; none if empty
+  /// Force of the surroundings on the end-effector over time, measured as it is [N]; none if empty.
+  std::function<Vector3(double, const ReducedDynamics::EndEffector&)> touch;
 };
 
 struct ClosedLoopSample {
@@ -24,6 +26,7 @@ struct ClosedLoopSample {
   StateVector x;
   JointVector command, torque;
   double tilt;
+  PlanReport plan;  ///< the newest
 };
 
 /// One sample per step of LaggedPlant::kStep. Ends early when the robot has fallen (tilt > 1 rad).

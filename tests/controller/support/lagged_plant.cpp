@@ -22,7 +22,8 @@ JointVector LaggedPlant::jointVelocity() const {
 double LaggedPlant::tilt() const { return std::acos(std::cos(x_[kPitch]) * std::cos(x_[kRoll])); }
 
 StateVector LaggedPlant::derivative(const StateVector& x, const Vector3& push_W) const {
-  StateVector dx = dynamics_.derivative(x, torque_, Vector3::Zero());
+  const Vector3 force = touch ? touch(dynamics_.endEffector(x)) : Vector3(Vector3::Zero());
+  StateVector dx = dynamics_.derivative(x, torque_, force);
   if (!push_W.isZero(0)) {
     const Matrix3 R_WB = rotationFromYawPitchRoll(x[kYaw], x[kPitch], x[kRoll]);
     const Vector3 p_KP_B(0, 0, 0.35);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 
 #include "model/actuator_parameters.hpp"
 #include "model/reduced_dynamics.hpp"
@@ -21,6 +22,9 @@ class LaggedPlant {
   static constexpr double kStep = 4e-4;  ///< [s]
 
   LaggedPlant(const RobotParameters& robot, const LagParameters& lag, const StateVector& x);
+
+  /// Force of the surroundings on the end-effector, from its motion [N]; none unless set.
+  std::function<Vector3(const ReducedDynamics::EndEffector&)> touch;
 
   /// One step of kStep with the command held. `push_W` acts on the base 0.35 m above K [N].
   void step(const JointVector& command, const Vector3& push_W = Vector3::Zero());

@@ -42,20 +42,18 @@ class LinearQuadraticProblem final : public OptimalControlProblem<NX, NU> {
   void addFinalCost(const X& x, CostTerms& terms) const noexcept override {
     terms.value[1] += 0.5 * x.dot(Qf * x);
   }
-  void linearizeStep(int k, const X& x, const U& u, X& next,
-                     LqStage<NX, NU>& lq) const noexcept override {
-    step(k, x, u, next);
-    lq.A() = A;
-    lq.B() = B;
-  }
-  void approximateCost(int k, const X& x, const U& u, CostTerms& terms,
-                       LqStage<NX, NU>& lq) const noexcept override {
-    addCost(k, x, u, terms);
-    lq.Q() = Q;
-    lq.R() = R;
-    lq.Pt() = Pt;
-    lq.q() = Q * x + Pt * u + q;
-    lq.r() = R * u + Pt.transpose() * x + r;
+  void approximate(int first, int count, const X* x, const U* u, CostTerms* terms,
+                   LqStage<NX, NU>* lq) const noexcept override {
+    for (int i = 0; i < count; ++i) {
+      addCost(first + i, x[i], u[i], terms[i]);
+      lq[i].A() = A;
+      lq[i].B() = B;
+      lq[i].Q() = Q;
+      lq[i].R() = R;
+      lq[i].Pt() = Pt;
+      lq[i].q() = Q * x[i] + Pt * u[i] + q;
+      lq[i].r() = R * u[i] + Pt.transpose() * x[i] + r;
+    }
   }
   void approximateFinalCost(const X& x, CostTerms& terms,
                             ValueFunction<NX>& value) const noexcept override {
