@@ -5,12 +5,12 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "core/angle.hpp"
 #include "metrics/static_balance.hpp"
 
 namespace ballbot {
 namespace {
 
-constexpr double kDegPerRad = 57.295779513082320877;
 constexpr double kBridged_s = 0.1;
 constexpr double kSmallest_N = 0.05;
 constexpr double kWallThickness = 0.06;  // as drawn [m]
