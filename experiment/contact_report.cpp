@@ -5,12 +5,12 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "core/angle.hpp"
 #include "metrics/static_balance.hpp"
 
 namespace ballbot {
 namespace {
 
-constexpr double kDegPerRad = 57.295779513082320877;
 constexpr double kBridged_s = 0.1;
 constexpr double kSmallest_N = 0.05;
 constexpr double kWallThickness = 0.06;  // as drawn [m]
@@ -74,7 +74,7 @@ std::optional<PlotGroup> contactGroup(const RunLog& log, const RobotParameters& 
                                       const SurroundingsParameters& surroundings) {
   PlotSeries asked{"asked for", SeriesStyle::kReference, 0, {}, {}};
   PlotSeries force{"true", SeriesStyle::kMeasured, 0, {}, {}};
-  PlotSeries sensed{"from arm torques", SeriesStyle::kEstimated, 1, {}, {}};
+  PlotSeries sensed{"sensed by the arm", SeriesStyle::kMeasured, 1, {}, {}};
   PlotSeries across{"across, true", SeriesStyle::kMeasured, 2, {}, {}};
   PlotSeries shift{"true", SeriesStyle::kMeasured, 0, {}, {}};
   PlotSeries balance{"static balance", SeriesStyle::kReference, 0, {}, {}};
@@ -119,7 +119,7 @@ std::optional<PlotGroup> contactGroup(const RunLog& log, const RobotParameters& 
                   "Force on the end-effector along the one asked for. The robot leans until its "
                   "centre of mass stands so far before the ball that its weight balances the force.",
                   {}, {}};
-  group.axes.push_back({"force", "N", {asked, force, sensed, across}, {}});
+  group.axes.push_back({"force", "N", {sensed, asked, force, across}, {}});
   group.axes.push_back({"COM before ball", "mm", {balance, shift}, {}});
   if (surroundings.door) group.axes.push_back({"door angle", "deg", {door}, {}});
   return group;

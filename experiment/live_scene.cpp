@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/angle.hpp"
 #include "core/config_reader.hpp"
 #include "experiment/contact_report.hpp"
 #include "experiment/run_replay.hpp"
@@ -17,8 +18,6 @@ namespace ballbot {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegPerRad = 57.295779513082320877;
 
 RobotParameters robotOf(const Scenario& scenario) {
   ConfigReader in(scenario.section("robot"), "robot");

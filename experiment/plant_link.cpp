@@ -40,7 +40,8 @@ void PlantLink::start() {
   }
   LcmAddress address = options_.address;
   if (address.url.empty()) {
-    address = options_.shared ? sharedLcmAddress() : privateLcmAddress();
+    address = options_.shared ? LcmAddress{sharedLcmAddress().url, options_.address.channel}
+                              : privateLcmAddress();
     child_ = std::make_unique<ChildProcess>(
         "plant",
         std::vector<std::string>{"plant", folder_.scenarioFile(), "--lcm-url", address.url, "--channel",

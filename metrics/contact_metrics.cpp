@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angle.hpp"
 #include "model/frames.hpp"
 #include "model/reduced_dynamics.hpp"
 
 namespace ballbot {
 namespace {
 
-constexpr double kDegPerRad = 57.295779513082320877;
 constexpr double kSmallest_N = 0.05;    // asked for: as good as none
 constexpr double kUnchanged_N = 0.02;
 

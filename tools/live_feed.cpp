@@ -6,7 +6,7 @@
 namespace ballbot {
 namespace {
 
-using WallClock = std::chrono::steady_clock;
+using WallTime = std::chrono::steady_clock;
 constexpr auto kFramePeriod = std::chrono::milliseconds(40);
 constexpr auto kPatience = std::chrono::milliseconds(100);
 
@@ -26,16 +26,16 @@ LiveFeed::~LiveFeed() {
 
 void LiveFeed::listen() {
   ballbot_msgs::step_reply reply;
-  auto due = WallClock::now();
+  auto due = WallTime::now();
   while (!quit_.load()) {
     const LcmBus::Message* message = nullptr;
-    if (!bus_.receive(message, kPatience) || WallClock::now() < due) continue;
+    if (!bus_.receive(message, kPatience) || WallTime::now() < due) continue;
     const Bytes& data = message->data;
     if (fingerprint(data.data(), data.size()) != ballbot_msgs::step_reply::getHash() ||
         !decodeMessage(data.data(), data.size(), reply) || reply.truth_count != 1) {
       continue;
     }
-    due = WallClock::now() + kFramePeriod;
+    due = WallTime::now() + kFramePeriod;
     std::string frame = scene_.frame(reply.truth[0]);
     const std::lock_guard<std::mutex> lock(mutex_);
     newest_ = std::move(frame);

@@ -99,10 +99,11 @@ void addRunCommand(CLI::App& program, ExitCode& result) {
   CLI::App* command = program.add_subcommand("run", "Run one scenario and leave a run folder");
   const auto a = std::make_shared<RunArguments>();
   addSharedOptions(command, a);
-  command->add_flag("--in-process", a->in_process, "Controller and plant in one process; same bits, no LCM");
+  CLI::Option* in_process =
+      command->add_flag("--in-process", a->in_process, "Controller and plant in one process; same bits, no LCM");
   command->add_option("--lcm-url", a->lcm_url,
                       "Do not start a plant: meet whoever serves at this LCM URL, e.g. ballbot plant");
-  command->add_flag("--live", a->live, "Meet the plant where ballbot view --live listens");
+  command->add_flag("--live", a->live, "Meet the plant where ballbot view --live listens")->excludes(in_process);
   command->add_option("--replace-plant-at", a->replace_plant_at_s,
                       "At this time [s] save the plant, kill its process, continue in a new one");
   command->footer(

@@ -29,13 +29,15 @@ set(never_estimator model/truth.hpp)
 set(carriers_of_frames hil/can_frame.hpp hil/can_bus.hpp hil/serial_port.hpp)
 
 # A library behind one door: who may include its headers.
-set(door_names simbody yaml urdf lcm)
+set(door_names simbody yaml urdf lcm httplib)
 set(door_simbody_headers "Simbody.h|SimTKcommon|simbody/")
 set(door_simbody_folders plant)
 set(door_yaml_headers "yaml-cpp/")
 set(door_yaml_folders core)
 set(door_urdf_headers "urdf_parser/|urdf_model/|urdf_world/")
 set(door_urdf_folders model)
+set(door_httplib_headers "httplib.h")
+set(door_httplib_folders tools)
 set(door_lcm_headers "lcm/")
 set(door_lcm_folders cosim)
 
