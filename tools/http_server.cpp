@@ -1,5 +1,7 @@
 #include "tools/http_server.hpp"
 
+#include <sys/socket.h>
+
 #include <thread>
 
 #include <fmt/format.h>
@@ -23,6 +25,11 @@ struct HttpServer::Impl {
 
 HttpServer::HttpServer(int port) : impl_(std::make_unique<Impl>()) {
   httplib::Server& server = impl_->server;
+  // The library's default lets a second server share the port of a first.
+  server.set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
   if (port == 0) {
     impl_->port = server.bind_to_any_port(kHost);
   } else if (server.bind_to_port(kHost, port)) {

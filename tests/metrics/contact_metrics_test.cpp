@@ -67,7 +67,9 @@ TEST(StaticBalance, HoldsForARobotThatStandsStillUnderAForce) {
     truth.contact_force_W = force;
     const Lean lean = leanOf(robot, truth, Vector3::UnitX());
     EXPECT_NEAR(lean.shift, lean.balanced_shift, 1e-9) << force.transpose();
-    if (force.z() == 0) EXPECT_NEAR(lean.shift, lean.normal_shift, 1e-9);
+    if (force.z() == 0) {
+      EXPECT_NEAR(lean.shift, lean.normal_shift, 1e-9);
+    }
   }
 }
 

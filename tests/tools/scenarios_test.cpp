@@ -59,6 +59,31 @@ TEST(Scenarios, BalancePassesOnTheContinuousEngine) {
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
 }
 
+// A door that flies open leaves nothing to push against. The plan that still counts on its force runs
+// after it and falls; supervision drops the force.
+TEST(Scenarios, AForceThatIsNotThereIsDroppedBeforeTheRobotFalls) {
+  for (const bool supervised : {true, false}) {
+    const TemporaryFolder folder;
+    std::vector<std::string> words{"run", scenarioPath("door_10N"), "--quiet", "--json", "--no-report",
+                                   "--in-process", "--out", folder / "run", "--set", "duration_s=9",
+                                   "--set", "environment.door.inertia_kgm2=0.3",
+                                   "--set", "environment.door.damping_Nms_per_rad=0.5",
+                                   "--set", "environment.door.friction_Nm=0"};
+    if (!supervised) {
+      words.push_back("--set");
+      words.push_back("controller.mpc.contact_supervision="
+                      "{lost_share: 0, approach_force_N: 100, approach_limit_s: 100}");
+    }
+    const Finished run = runBallbot(words);
+    const auto json = nlohmann::json::parse(run.out, nullptr, false);
+    ASSERT_FALSE(json.is_discarded()) << run.err;
+    EXPECT_EQ(json["fell"].get<bool>(), !supervised);
+    if (supervised) {
+      EXPECT_LT(json["largest_tilt_deg"].get<double>(), 10);
+    }
+  }
+}
+
 TEST(Requirements, AMissedOneGivesExitCodeOne) {
   const TemporaryFolder folder;
   const Finished run =
