@@ -111,6 +111,12 @@ void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutp
     case TrackStatus::kTorqueSaturated: ++ticks_saturated_; break;
     case TrackStatus::kNotFinite: ++ticks_not_finite_; break;
   }
+  if (now >= release_) {
+    const ActuatorCommand& c = out.command;  // with the PD in the drives, their part is added here
+    const JointVector whole = c.torque + c.stiffness.cwiseProduct(c.position - sensors.joint_angle) +
+                              c.damping.cwiseProduct(c.velocity - sensors.joint_velocity);
+    feedforward_share_.add(policy_.torque, whole - policy_.torque);
+  }
   law_->commanded(now, tracker_period_, out.command.torque);
 }
 
@@ -132,6 +138,7 @@ StateBlob RobotController::saveState() const {
   out.put(plans_refused_);
   out.put(ticks_saturated_);
   out.put(ticks_not_finite_);
+  feedforward_share_.save(out);
   return out.seal("controller", 2);
 }
 
@@ -149,6 +156,7 @@ void RobotController::restoreState(const StateBlob& blob) {
   plans_refused_ = in.get<std::int64_t>();
   ticks_saturated_ = in.get<std::int64_t>();
   ticks_not_finite_ = in.get<std::int64_t>();
+  feedforward_share_.restore(in);
   in.finish();
 }
 
