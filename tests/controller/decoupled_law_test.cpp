@@ -9,7 +9,6 @@
 #include "controller/law_factory.hpp"
 #include "core/error.hpp"
 #include "tests/controller/support/allocation_counter.hpp"
-#include "tests/controller/support/closed_loop.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
@@ -163,19 +162,6 @@ TEST(DecoupledLaw, ItsIntegralTakesUpALoadNobodyToldItOf) {
   law->activatePlan();
   law->sample(at(kStep * 20), later);
   EXPECT_LT(later.torque[kWheelCount + 1], first.torque[kWheelCount + 1] - 0.5);
-}
-
-TEST(DecoupledLaw, BalancesARobotWithItsArmAtRest) {
-  const RobotParameters robot = exampleRobot();
-  const auto law = decoupled(robot);
-  StateVector x = findEquilibrium(ReducedDynamics(robot), robot.nominal_arm).x;
-  x[kPitch] += 0.03;
-  TrackerConfig tracker;
-  tracker.torque_limit << Vector3::Constant(4), Vector3::Constant(18);
-  const auto samples = runClosedLoop(*law, tracker, robot, x, 4);
-  ASSERT_NEAR(samples.back().time, 4, 0.01);
-  EXPECT_LT(samples.back().tilt, 0.05);
-  EXPECT_LT(samples.back().x.head<2>().norm(), 0.1);
 }
 
 TEST(DecoupledLaw, ARestoredStateContinuesBitForBit) {
