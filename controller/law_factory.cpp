@@ -1,6 +1,7 @@
 #include "controller/law_factory.hpp"
 
 #include "controller/background_mpc_law.hpp"
+#include "controller/decoupled_law.hpp"
 #include "controller/lqr_law.hpp"
 #include "controller/mpc_law.hpp"
 #include "core/config_reader.hpp"
@@ -16,14 +17,25 @@ LqrLawConfig readLqr(ConfigReader& in, const RobotParameters& robot) {
 }  // namespace
 
 std::unique_ptr<ControlLaw> makeControlLaw(ConfigReader& in, const RobotParameters& robot) {
-  enum class Kind { kLqr, kMpc };
-  switch (in.choice<Kind>("kind", {{"lqr", Kind::kLqr}, {"mpc", Kind::kMpc}})) {
+  enum class Kind { kLqr, kMpc, kDecoupled };
+  const Kind kind = in.choice<Kind>(
+      "kind", {{"lqr", Kind::kLqr}, {"mpc", Kind::kMpc}, {"decoupled", Kind::kDecoupled}});
+  switch (kind) {
     case Kind::kLqr:
       return std::make_unique<LqrLaw>(robot, readLqr(in, robot));
-    case Kind::kMpc: {
+    case Kind::kMpc:
+    case Kind::kDecoupled: {
       ConfigReader mpc = in.child("mpc");
       MpcConfig config = MpcConfig::read(mpc, robot);
       if (in.has("lqr")) config.lqr = readLqr(in, robot);
+      if (kind == Kind::kDecoupled) {
+        DecoupledConfig decoupled;
+        if (in.has("decoupled")) {
+          ConfigReader section = in.child("decoupled");
+          decoupled = DecoupledConfig::read(section);
+        }
+        return std::make_unique<DecoupledLaw>(robot, config, decoupled);
+      }
       if (config.solver_thread) return std::make_unique<BackgroundMpcLaw>(robot, config);
       return std::make_unique<MpcLaw>(robot, config);
     }

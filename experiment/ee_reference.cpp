@@ -1,9 +1,9 @@
 #include "experiment/ee_reference.hpp"
 
 #include "core/config_reader.hpp"
+#include "experiment/motion_metrics.hpp"
 #include "model/frames.hpp"
 #include "model/reduced_dynamics.hpp"
-#include "model/robot_reader.hpp"
 
 namespace ballbot {
 namespace {
@@ -51,8 +51,7 @@ EeReference readEeReference(const Scenario& scenario) {
   EeReference out;
   const ConfigNode* kind = descend(scenario.tree, {"controller", "kind"});
   if (!kind || kind->text() == "lqr") return out;
-  ConfigReader robot_in(scenario.section("robot"), "robot");
-  const ReducedDynamics dynamics(readRobot(robot_in));
+  const ReducedDynamics dynamics(believedRobot(scenario));
   const auto rest = dynamics.endEffector(findEquilibrium(dynamics, dynamics.robot().nominal_arm).x);
   out.initial << rest.p_WE, yawPitchRollFromRotation(rest.R_WE);
   addSteps(scenario, "ee_position", 0, out);

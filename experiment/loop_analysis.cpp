@@ -3,11 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
-#include "controller/mpc_planner.hpp"
 #include "controller/pd_tracker.hpp"
 #include "core/config_reader.hpp"
+#include "experiment/motion_metrics.hpp"
 #include "model/actuator_response.hpp"
-#include "model/robot_reader.hpp"
 #include "plant/plant_config.hpp"
 
 namespace ballbot {
@@ -20,8 +19,9 @@ struct Weights {
   FrequencyShaping shaping;
 };
 
-Weights weightsOf(ConfigReader& controller, const RobotParameters& robot, SimTime at) {
+Weights weightsOf(const Scenario& scenario, const RobotParameters& robot, SimTime at) {
   Weights w;
+  ConfigReader controller(scenario.section("controller"), "controller");
   if (controller.text("kind") == "lqr") {
     ConfigReader in = controller.child("lqr");
     const LqrWeights lqr = LqrLawConfig::read(in, robot).weights;
@@ -30,8 +30,7 @@ Weights weightsOf(ConfigReader& controller, const RobotParameters& robot, SimTim
     w.shaping.pole = w.shaping.zero;
     return w;
   }
-  ConfigReader in = controller.child("mpc");
-  const MpcConfig mpc = MpcConfig::read(in, robot);
+  const MpcConfig mpc = *readMpc(scenario);
   Tasks tasks;
   mpc.schedule->at(toSeconds(at), toSeconds(at), tasks);
   w.Q = stateWeightOfTasks(robot, mpc.constraints, tasks, robot.nominal_arm);
@@ -53,13 +52,11 @@ double delayOf(const Scenario& scenario, const PlantConfig& plant, double policy
 
 LoopAnalysis analyseLoop(const Scenario& scenario, SimTime at, const std::optional<SimDuration>& delay) {
   const PlantConfig plant = readPlantConfig(scenario.tree);
-  ConfigReader robot_in(scenario.section("robot"), "robot");
-  RobotParameters robot = readRobot(robot_in);
+  const RobotParameters robot = believedRobot(scenario);
   ConfigReader controller(scenario.section("controller"), "controller");
-  robot.payload_mass = controller.numberOr("known_payload_kg", robot.payload_mass, {0, 5});
   ConfigReader tracker_in = controller.child("tracker");
   const TrackerConfig tracker = TrackerConfig::read(tracker_in, robot);
-  const Weights weights = weightsOf(controller, robot, at);
+  const Weights weights = weightsOf(scenario, robot, at);
 
   const ReducedDynamics dynamics(robot);
   LoopAnalysis out;

@@ -100,6 +100,12 @@ void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutp
     case TrackStatus::kTorqueSaturated: ++ticks_saturated_; break;
     case TrackStatus::kNotFinite: ++ticks_not_finite_; break;
   }
+  if (now >= release_) {
+    const ActuatorCommand& c = out.command;  // with the PD in the drives, their part is added here
+    const JointVector whole = c.torque + c.stiffness.cwiseProduct(c.position - sensors.joint_angle) +
+                              c.damping.cwiseProduct(c.velocity - sensors.joint_velocity);
+    feedforward_share_.add(policy_.torque, whole - policy_.torque);
+  }
   law_->commanded(now, tracker_period_, out.command.torque);
 }
 
@@ -122,11 +128,12 @@ StateBlob RobotController::saveState() const {
   out.put(plans_on_fallback_);
   out.put(ticks_saturated_);
   out.put(ticks_not_finite_);
-  return out.seal("controller", 4);
+  feedforward_share_.save(out);
+  return out.seal("controller", 5);
 }
 
 void RobotController::restoreState(const StateBlob& blob) {
-  BlobReader in(blob, "controller", 4);
+  BlobReader in(blob, "controller", 5);
   sensing_.restore(in);
   law_->restoreState(in.getBlob());
   law_->setContactForce(sensing_.contactForce());
@@ -139,6 +146,7 @@ void RobotController::restoreState(const StateBlob& blob) {
   plans_on_fallback_ = in.get<std::int64_t>();
   ticks_saturated_ = in.get<std::int64_t>();
   ticks_not_finite_ = in.get<std::int64_t>();
+  feedforward_share_.restore(in);
   in.finish();
 }
 

@@ -12,6 +12,7 @@
 #include "cosim/stepped_controller.hpp"
 #include "experiment/robot_sensing.hpp"
 #include "experiment/scenario.hpp"
+#include "metrics/feedforward_share.hpp"
 
 namespace ballbot {
 
@@ -41,6 +42,9 @@ class RobotController final : public SteppedController {
   /// For those who hold the estimator's own judgement against the truth.
   const Estimator& estimator() const { return sensing_.estimator(); }
 
+  /// How much of the commanded torques was planned, since the release.
+  const FeedforwardShare& feedforwardShare() const { return feedforward_share_; }
+
   /// Measures the wall-clock time of each plan() call, up to `capacity` of them [ns]; a fact of the
   /// machine, never part of a result.
   void timePlans(PhaseClock wall_clock_ns, std::size_t capacity);
@@ -57,6 +61,7 @@ class RobotController final : public SteppedController {
   TaskId tracker_task_, estimator_task_, planner_task_;
 
   PolicySample policy_;
+  FeedforwardShare feedforward_share_;
   bool plan_pending_ = false;
   bool has_policy_ = false;
   SimTime pending_since_{};

@@ -35,6 +35,7 @@ void BalanceMetrics::add(const TruthFrame& truth, const ActuatorCommand& command
   largest_wheel_torque_ = std::max(largest_wheel_torque_, truth.joint_torque.head<3>().cwiseAbs().maxCoeff());
   largest_arm_torque_ = std::max(largest_arm_torque_, truth.joint_torque.tail<3>().cwiseAbs().maxCoeff());
   torque_error2_integral_ += dt * (truth.joint_torque - command.torque).head<3>().squaredNorm() / 3;
+  arm_torque_error2_integral_ += dt * (truth.joint_torque - command.torque).tail<3>().squaredNorm() / 3;
   if (!fell_ && !(tilt < kFallTiltDeg / kDegPerRad)) {
     fell_ = true;
     fall_time_ = truth.time;
@@ -55,6 +56,7 @@ std::map<std::string, double> BalanceMetrics::values() const {
   if (observed_s_ > 0) {
     m["rms_ball_excursion_m"] = std::sqrt(excursion2_integral_ / observed_s_);
     m["rms_tilt_deg"] = std::sqrt(tilt2_integral_ / observed_s_) * kDegPerRad;
+    m["rms_arm_torque_error_Nm"] = std::sqrt(arm_torque_error2_integral_ / observed_s_);
     m["rms_wheel_torque_error_Nm"] = std::sqrt(torque_error2_integral_ / observed_s_);
   }
   return m;
@@ -68,6 +70,7 @@ std::vector<std::string> BalanceMetrics::names() {
           "largest_ball_excursion_m",
           "largest_tilt_deg",
           "largest_wheel_torque_Nm",
+          "rms_arm_torque_error_Nm",
           "rms_ball_excursion_m",
           "rms_tilt_deg",
           "rms_wheel_torque_error_Nm",

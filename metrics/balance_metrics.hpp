@@ -41,7 +41,7 @@ class BalanceMetrics {
   double largest_tilt_ = 0, largest_excursion_ = 0;
   double excursion2_integral_ = 0, tilt2_integral_ = 0, observed_s_ = 0;
   double largest_wheel_torque_ = 0, largest_arm_torque_ = 0;
-  double torque_error2_integral_ = 0;
+  double torque_error2_integral_ = 0, arm_torque_error2_integral_ = 0;
   Eigen::Vector2d home_ = Eigen::Vector2d::Zero();
   TruthFrame last_;
 };

@@ -11,31 +11,47 @@ namespace ballbot {
 
 /// Distance from its place within which the ball counts as returned [m].
 constexpr double kReturnedDistance = 0.05;
+/// The same for the end-effector [m].
+constexpr double kEeReturnedDistance = 0.03;
 
 /// How the robot takes pushes: how far the ball is driven from where it was when a push began, and
-/// how long after the push it is back for good. "For good" means until the next push or the end.
+/// how long after the push it is back for good; the same of the end-effector; how far the arm moves
+/// and how far the base leans against the push. "For good" means until the next push or the end.
 class PushMetrics {
  public:
   struct Interval {
     SimTime start, end;
+    Eigen::Vector2d force = Eigen::Vector2d::Zero();  ///< horizontal part, in W [N]
   };
   /// Pushes that overlap count as one, from the first start to the last end.
   explicit PushMetrics(std::vector<Interval> pushes);
 
   void add(const TruthFrame& truth);
 
-  /// largest_push_excursion_m; longest_push_return_s, absent if the ball did not come back.
+  /// Over all pushes: largest_push_excursion_m; longest_push_return_s, absent if the ball did not
+  /// come back; largest_push_ee_excursion_m and longest_push_ee_return_s likewise;
+  /// largest_push_arm_excursion_rad; least_lean_against_push_deg, the smallest of the pushes' largest
+  /// leans against them.
   std::map<std::string, double> values() const;
   static std::vector<std::string> names();
 
  private:
-  struct Response {
-    Interval push;
-    bool begun = false;
-    Eigen::Vector2d home = Eigen::Vector2d::Zero();
+  /// A point that is driven away from its home and comes back.
+  struct Way {
+    Vector3 home = Vector3::Zero();
     double excursion = 0;
     SimTime last_away{};
     bool away = false;
+    void add(SimTime t, const Vector3& position, double returned_distance);
+    double returnAfter(SimTime end) const;
+  };
+  struct Response {
+    Interval push;
+    bool begun = false;
+    Way ball, ee;
+    Vector3 arm_home = Vector3::Zero();
+    Eigen::Vector2d lean_home = Eigen::Vector2d::Zero();
+    double arm_excursion = 0, lean_against = 0;
   };
   std::vector<Response> responses_;
 };

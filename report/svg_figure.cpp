@@ -127,6 +127,11 @@ std::string axesElement(const SvgAxes& axes, double top, int index) {
   const Scale sx(x.low, x.high, axes.log_x, kLeft, right);
   const Scale sy(y.low, y.high, axes.log_y, bottom, top);
   std::string out;
+  for (const SvgSpan& s : axes.shaded) {
+    const double from = std::clamp(sx(s.from), kLeft, right), to = std::clamp(sx(s.to), kLeft, right);
+    out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' class='span'/>\n", number(from), number(top),
+                       number(std::max(0.0, to - from)), number(kPlotHeight));
+  }
   if (axes.log_x) {
     for (const double v : minorTicks(x.low, x.high)) out += lineElement(sx(v), top, sx(v), bottom, "class='minor'");
   }
@@ -206,7 +211,7 @@ std::string svgFigure(const std::string& title, const std::vector<SvgAxes>& axes
       "<title>{2}</title>\n"
       "<style>text{{font:12px system-ui,sans-serif;fill:#222}}.label{{font-size:13px}}"
       ".title{{font-size:16px;font-weight:600}}.grid{{stroke:#ccc}}.minor{{stroke:#eee}}"
-      ".mark{{stroke:#555;stroke-dasharray:2 3}}</style>\n"
+      ".span{{fill:#fbeed2}}.mark{{stroke:#555;stroke-dasharray:2 3}}</style>\n"
       "<rect width='{0}' height='{1}' fill='#fff'/>\n",
       number(width), number(height), escaped(title));
   if (!title.empty()) out += textElement(kLeft, 25, "start", title, "class='title'");

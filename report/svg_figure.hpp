@@ -19,12 +19,18 @@ struct SvgMark {
   double value = 0;
 };
 
+/// A stretch along x that is shaded, e.g. a push.
+struct SvgSpan {
+  double from = 0, to = 0;
+};
+
 /// One pair of axes.
 struct SvgAxes {
   std::string x_label, y_label;  ///< with units, e.g. "frequency [Hz]"
   bool log_x = false, log_y = false;  ///< values that are not positive are gaps there
   std::vector<SvgSeries> series;
   std::vector<SvgMark> at_x, at_y;
+  std::vector<SvgSpan> shaded;
 };
 
 /// A figure that stands alone: axes under each other, legends beside them, nothing fetched from

@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   addPlantCommand(program, result);
   addControllerCommand(program, result);
   addRelayCommand(program, result);
+  addReproduceCommand(program, result);
   addBodeCommand(program, result);
   addViewCommand(program, result);
   addDoctorCommand(program, result);

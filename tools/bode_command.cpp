@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/angle.hpp"
 #include "experiment/loop_analysis.hpp"
 #include "experiment/text_file.hpp"
 #include "tools/bode_figure.hpp"
@@ -25,15 +24,13 @@ struct BodeArguments {
   bool json = false;
 };
 
-double degrees(std::complex<double> z) { return kDegPerRad * std::arg(z); }
-
 nlohmann::ordered_json marginsJson(const LoopMargins& m) {
   nlohmann::ordered_json j;
   j["stable"] = m.stable;
   j["crossover_rad_per_s"] = m.crossover;
-  j["crossover_Hz"] = m.crossover / kTwoPi;
+  j["crossover_Hz"] = inHertz(m.crossover);
   j["smallest_distance_to_instability"] = m.distance;
-  j["smallest_distance_at_Hz"] = m.distance_at / kTwoPi;
+  j["smallest_distance_at_Hz"] = inHertz(m.distance_at);
   if (std::isfinite(m.delay_margin)) j["delay_margin_ms"] = 1e3 * m.delay_margin;
   return j;
 }
@@ -50,9 +47,9 @@ nlohmann::ordered_json toJson(const Scenario& scenario, const LoopAnalysis& a) {
     const ActuatorResponse response(a.drives.actuators.of(joint), a.drives.drive_period);
     j["actuators"][group] = {
         {"wanted_bandwidth_Hz", a.drives.actuators.of(joint).torque_bandwidth},
-        {"blocked_bandwidth_Hz", response.bandwidth() / kTwoPi},
+        {"blocked_bandwidth_Hz", inHertz(response.bandwidth())},
         {"load_inertia_kgm2", a.inertia[joint]},
-        {"loaded_gain_at_1_Hz", std::abs(response.loaded(kTwoPi, a.inertia[joint]))}};
+        {"loaded_gain_at_1_Hz", std::abs(response.loaded(2 * 3.14159265358979323846, a.inertia[joint]))}};
   }
   j["delay_ms"] = 1e3 * a.delay;
   j["loop_at_the_wheels"] = {{"ideal_drives", marginsJson(a.with_ideal_drives)},
@@ -66,17 +63,17 @@ std::string csvText(const LoopAnalysis& a) {
       "wheel_loaded_dB,wheel_loaded_deg,arm_blocked_dB,arm_blocked_deg,loop_gain_ideal,loop_gain,"
       "distance_ideal,distance\n";
   for (const LoopAnalysis::Sample& s : a.samples) {
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", s.omega / kTwoPi, std::abs(s.shaping),
-                       degrees(s.shaping), s.weight, decibel(s.wheel_blocked), degrees(s.wheel_blocked),
-                       decibel(s.wheel_loaded), degrees(s.wheel_loaded), decibel(s.arm_blocked),
-                       degrees(s.arm_blocked), s.loop_gain_ideal, s.loop_gain, s.distance_ideal, s.distance);
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", inHertz(s.omega), std::abs(s.shaping),
+                       phaseDegrees(s.shaping), s.weight, inDecibel(s.wheel_blocked), phaseDegrees(s.wheel_blocked),
+                       inDecibel(s.wheel_loaded), phaseDegrees(s.wheel_loaded), inDecibel(s.arm_blocked),
+                       phaseDegrees(s.arm_blocked), s.loop_gain_ideal, s.loop_gain, s.distance_ideal, s.distance);
   }
   return out;
 }
 
 std::string marginsRow(const char* name, const LoopMargins& m) {
   return fmt::format("  {:<22} {:>8} {:>10.1f} {:>10.2f} {:>14.2f} {:>16}\n", name, m.stable ? "yes" : "NO",
-                     m.crossover, m.crossover / kTwoPi, m.distance,
+                     m.crossover, inHertz(m.crossover), m.distance,
                      std::isfinite(m.delay_margin) ? fmt::format("{:.1f}", 1e3 * m.delay_margin) : "none");
 }
 
@@ -91,16 +88,16 @@ std::string tableText(const Scenario& scenario, const LoopAnalysis& a) {
                      "dB, deg", "ideal", "", "");
   std::size_t next = 0;
   for (const double f : kTableHz) {
-    while (next + 1 < a.samples.size() && a.samples[next].omega < kTwoPi * f * (1 - 1e-9)) ++next;
+    while (next + 1 < a.samples.size() && inHertz(a.samples[next].omega) < f * (1 - 1e-9)) ++next;
     const LoopAnalysis::Sample& s = a.samples[next];
     out += fmt::format("  {:>9.3g} {:>9.3f} {:>9.3g} {:>8.1f} {:>7.0f} {:>8.1f} {:>7.0f} {:>10.3g} {:>10.3g} {:>8.2f}\n",
-                       s.omega / kTwoPi, std::abs(s.shaping), s.weight, decibel(s.wheel_blocked),
-                       degrees(s.wheel_blocked), decibel(s.wheel_loaded), degrees(s.wheel_loaded),
+                       inHertz(s.omega), std::abs(s.shaping), s.weight, inDecibel(s.wheel_blocked),
+                       phaseDegrees(s.wheel_blocked), inDecibel(s.wheel_loaded), phaseDegrees(s.wheel_loaded),
                        s.loop_gain_ideal, s.loop_gain, s.distance);
   }
   const ActuatorResponse wheel(a.drives.actuators.wheel, a.drives.drive_period);
   out += fmt::format("\n  drive bandwidth at a wheel, blocked: {:.1f} Hz (wanted {:g}); load {:.3f} kg m^2\n",
-                     wheel.bandwidth() / kTwoPi, a.drives.actuators.wheel.torque_bandwidth, a.inertia[0]);
+                     inHertz(wheel.bandwidth()), a.drives.actuators.wheel.torque_bandwidth, a.inertia[0]);
   out += fmt::format("  delay of the torques in the loop: {:.2f} ms\n\n", 1e3 * a.delay);
   out += fmt::format("  {:<22} {:>8} {:>10} {:>10} {:>14} {:>16}\n", "loop at the wheels", "stable", "crossover", "",
                      "smallest |1+L|", "delay margin, ms");

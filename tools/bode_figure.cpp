@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "core/angle.hpp"
 #include "report/svg_figure.hpp"
 
 namespace ballbot {
@@ -20,7 +19,7 @@ SvgSeries curve(const std::string& name, int colour, bool dashed, const LoopAnal
                 const std::function<double(const Sample&)>& value) {
   SvgSeries out{name, colour, dashed, {}, {}};
   for (const Sample& s : a.samples) {
-    out.x.push_back(s.omega / kTwoPi);
+    out.x.push_back(inHertz(s.omega));
     out.y.push_back(value(s));
   }
   return out;
@@ -29,14 +28,12 @@ SvgSeries curve(const std::string& name, int colour, bool dashed, const LoopAnal
 /// Phase without jumps of a whole turn.
 SvgSeries phase(const std::string& name, int colour, bool dashed, const LoopAnalysis& a,
                 const std::function<std::complex<double>(const Sample&)>& response) {
-  SvgSeries out = curve(name, colour, dashed, a, [&](const Sample& s) { return kDegPerRad * std::arg(response(s)); });
+  SvgSeries out = curve(name, colour, dashed, a, [&](const Sample& s) { return phaseDegrees(response(s)); });
   for (std::size_t i = 1; i < out.y.size(); ++i) out.y[i] -= 360 * std::round((out.y[i] - out.y[i - 1]) / 360);
   return out;
 }
 
 }  // namespace
-
-double decibel(std::complex<double> gain) { return 20 * std::log10(std::abs(gain)); }
 
 std::string bodeFigure(const std::string& scenario_name, const LoopAnalysis& a) {
   const std::string frequency = "frequency [Hz]";
@@ -48,7 +45,7 @@ std::string bodeFigure(const std::string& scenario_name, const LoopAnalysis& a) 
   SvgAxes gain{frequency, "drive [dB]", true, false, {}, {}, {{"-3 dB", -3.01}}};
   SvgAxes angle{frequency, "drive [deg]", true, false, {}, {}, {}};
   const auto addDrive = [&](const std::string& name, int colour, bool dashed, auto response) {
-    gain.series.push_back(curve(name, colour, dashed, a, [=](const Sample& s) { return decibel(response(s)); }));
+    gain.series.push_back(curve(name, colour, dashed, a, [=](const Sample& s) { return inDecibel(response(s)); }));
     angle.series.push_back(phase(name, colour, dashed, a, response));
   };
   addDrive("wheel, output blocked", 0, false, [](const Sample& s) { return s.wheel_blocked; });
@@ -59,7 +56,7 @@ std::string bodeFigure(const std::string& scenario_name, const LoopAnalysis& a) 
   SvgAxes loop{frequency, "loop gain", true, true, {}, {}, {{"1", 1}}};
   loop.series = {curve("ideal drives", 0, true, a, [=](const Sample& s) { return shown(s.loop_gain_ideal); }),
                  curve("series elastic drives", 1, false, a, [=](const Sample& s) { return shown(s.loop_gain); })};
-  loop.at_x = {{fmt::format("crossover {:.2f} Hz", a.with_drives.crossover / kTwoPi), a.with_drives.crossover / kTwoPi}};
+  loop.at_x = {{fmt::format("crossover {:.2f} Hz", inHertz(a.with_drives.crossover)), inHertz(a.with_drives.crossover)}};
 
   const auto near = [](double d) { return d > kFar ? std::nan("") : d; };
   SvgAxes distance{frequency, "smallest |1 + L|", true, false, {}, {}, {}};

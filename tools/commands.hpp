@@ -16,6 +16,7 @@ void addControllerCommand(CLI::App& program, ExitCode& result);
 void addRelayCommand(CLI::App& program, ExitCode& result);
 void addExportCommand(CLI::App& program, ExitCode& result);
 void addEstimateCommand(CLI::App& program, ExitCode& result);
+void addReproduceCommand(CLI::App& program, ExitCode& result);
 void addBodeCommand(CLI::App& program, ExitCode& result);
 void addViewCommand(CLI::App& program, ExitCode& result);
 void addDoctorCommand(CLI::App& program, ExitCode& result);

@@ -42,6 +42,35 @@ TEST(PushMetrics, EachPushIsJudgedFromWhereItBegan) {
   EXPECT_NEAR(metrics.values().at("longest_push_return_s"), 0.1, 0.02);
 }
 
+TEST(PushMetrics, JudgesTheEndEffectorFromWhereItWas) {
+  PushMetrics metrics({{at(1), at(1.5)}});
+  for (double t = 0; t < 5; t += 1e-2) {
+    TruthFrame truth = ball(t, 0);
+    truth.p_WE << 0.2, 0, t > 1.2 && t < 2.5 ? 0.85 : 0.95;
+    truth.state[kArm2] = t > 1.2 && t < 1.4 ? -0.9 : -0.6;
+    metrics.add(truth);
+  }
+  EXPECT_NEAR(metrics.values().at("largest_push_ee_excursion_m"), 0.1, 1e-9);
+  EXPECT_NEAR(metrics.values().at("longest_push_ee_return_s"), 1, 0.02);
+  EXPECT_NEAR(metrics.values().at("largest_push_arm_excursion_rad"), 0.3, 1e-9);
+}
+
+TEST(PushMetrics, LeanCountsAgainstThePushOnlyAndFromTheLeanBefore) {
+  const auto leanUnder = [](double roll) {
+    PushMetrics metrics({{at(1), at(1.5), {0, 20}}});
+    for (double t = 0; t < 3; t += 1e-2) {
+      TruthFrame truth = ball(t, 0);
+      truth.state[kPitch] = 0.02;  // the equilibrium's, across the push
+      truth.state[kRoll] = t > 1.2 ? roll : 0;
+      metrics.add(truth);
+    }
+    return metrics.values().at("least_lean_against_push_deg");
+  };
+  // A positive roll turns z_B towards -y: against a push along +y.
+  EXPECT_NEAR(leanUnder(0.1), 0.1 * 180 / M_PI, 0.02);
+  EXPECT_NEAR(leanUnder(-0.1), 0, 1e-9);
+}
+
 TEST(PushMetrics, WithoutPushesThereIsNothingToSay) {
   PushMetrics metrics({});
   metrics.add(ball(1, 1));

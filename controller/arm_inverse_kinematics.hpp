@@ -1,0 +1,41 @@
+#pragma once
+
+#include "controller/tasks.hpp"
+
+namespace ballbot {
+
+class ConfigReader;
+
+struct ArmInverseKinematicsConfig {
+  double gain = 4;        ///< rate at which an error of the pose is worked off [1/s]
+  double damping = 0.1;   ///< share of the mean stiffness added: bounds rates near singular poses
+  double rate_limit = 1;  ///< of each joint [rad/s]
+
+  /// Keys, each optional: gain_per_s, damping, joint_rate_limit_rad_per_s.
+  static ArmInverseKinematicsConfig read(ConfigReader& in);
+};
+
+/// Differential inverse kinematics of the arm on a base that stands where it stands: joint rates
+/// that lead the end-effector to its reference, by damped least squares with the tasks' own weights,
+///
+///   dq = (J^T W J + lambda 1)^-1 J^T W (v_desired + gain * error),
+///
+/// all joints slowed down together where one would exceed its limit. Without an end-effector task
+/// it leads to the tasks' arm position. May run in the control step.
+class ArmInverseKinematics {
+ public:
+  ArmInverseKinematics(const RobotParameters& robot, const ArmInverseKinematicsConfig& config)
+      : dynamics_(robot), config_(config) {}
+
+  /// @param x  base and ball as estimated, the arm where its set-point is
+  Vector3 rates(const StateVector& x, const Tasks& tasks) const noexcept;
+
+  /// `arm` inside the joints' limits.
+  Vector3 withinLimits(const Vector3& arm) const noexcept;
+
+ private:
+  ReducedDynamics dynamics_;
+  ArmInverseKinematicsConfig config_;
+};
+
+}  // namespace ballbot

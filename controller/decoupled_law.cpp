@@ -1,0 +1,148 @@
+#include "controller/decoupled_law.hpp"
+
+#include "controller/frozen_arm.hpp"
+#include "core/config_reader.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr char kBlobKind[] = "decoupled_law";
+constexpr std::uint32_t kBlobVersion = 1;
+constexpr double kNoLimit = 1e3;  ///< [rad]
+
+RobotParameters withoutPayload(RobotParameters robot) {
+  robot.payload_mass = 0;
+  return robot;
+}
+
+/// The whole-body problem less everything that is about the arm.
+MpcConfig baseOnly(MpcConfig c) {
+  auto tasks = std::make_shared<TaskSchedule>(*c.schedule);
+  tasks->ee_position_weight = tasks->ee_orientation_weight = TimedWeight<3>();
+  tasks->ee_velocity_weight = tasks->ee_rate_weight = TimedWeight<3>();
+  tasks->arm_position_weight = tasks->arm_rate_weight = TimedWeight<3>();
+  tasks->contact_force_weight = TimedWeight<3>();
+  c.schedule = tasks;
+  c.contact_forces = false;
+  c.constraints.arm_lower.setConstant(-kNoLimit);
+  c.constraints.arm_upper.setConstant(kNoLimit);
+  return c;
+}
+
+}  // namespace
+
+ArmPidConfig ArmPidConfig::read(ConfigReader& in) {
+  ArmPidConfig c;
+  c.stiffness = in.numberOr("stiffness_Nm_per_rad", c.stiffness, {0, 1e4});
+  c.damping = in.numberOr("damping_Nms_per_rad", c.damping, {0, 1e3});
+  c.integral = in.numberOr("integral_Nm_per_rad_s", c.integral, {0, 1e4});
+  c.integral_limit = in.numberOr("integral_limit_Nm", c.integral_limit, {0, 1e3});
+  in.finish();
+  return c;
+}
+
+DecoupledConfig DecoupledConfig::read(ConfigReader& in) {
+  DecoupledConfig c;
+  if (in.has("inverse_kinematics")) {
+    ConfigReader kinematics = in.child("inverse_kinematics");
+    c.inverse_kinematics = ArmInverseKinematicsConfig::read(kinematics);
+  }
+  if (in.has("pid")) {
+    ConfigReader pid = in.child("pid");
+    c.pid = ArmPidConfig::read(pid);
+  }
+  in.finish();
+  return c;
+}
+
+DecoupledLaw::DecoupledLaw(const RobotParameters& robot, const MpcConfig& mpc,
+                           const DecoupledConfig& config)
+    : frozen_arm_(robot.nominal_arm),
+      hold_torque_(findEquilibrium(ReducedDynamics(withoutPayload(robot)), robot.nominal_arm)
+                       .tau.tail<kArmJointCount>()),
+      schedule_(mpc.schedule),
+      inverse_kinematics_(robot, config.inverse_kinematics),
+      pid_(config.pid),
+      base_(withFrozenArm(robot, robot.nominal_arm), baseOnly(mpc)) {}
+
+PlanReport DecoupledLaw::plan(SimTime now, const StateVector& x,
+                              const JointVector& joint_angle) noexcept {
+  StateVector without_arm = x;
+  without_arm.segment<3>(kArm1) = frozen_arm_;
+  without_arm.segment<3>(kPositionDim + kArmRate1).setZero();
+  if (x.allFinite()) planArm(now, x);
+  return base_.plan(now, without_arm, joint_angle);
+}
+
+void DecoupledLaw::planArm(SimTime now, const StateVector& x) noexcept {
+  const Vector3 arm = x.segment<3>(kArm1);
+  const double since = planned_.valid ? toSeconds(now - planned_.stamp) : 0;
+  const Vector3 from = planned_.valid ? Vector3(planned_.position + since * planned_.rate) : arm;
+  planned_.position = inverse_kinematics_.withinLimits(from);
+  planned_.integral = (planned_.integral + since * pid_.integral * (planned_.position - arm))
+                          .cwiseMax(-pid_.integral_limit)
+                          .cwiseMin(pid_.integral_limit);
+  planned_.stamp = now;
+  planned_.valid = true;
+
+  Tasks tasks;
+  schedule_->at(toSeconds(now), toSeconds(now), tasks);
+  StateVector at_set_point = x;
+  at_set_point.segment<3>(kArm1) = planned_.position;
+  planned_.rate = inverse_kinematics_.rates(at_set_point, tasks);
+}
+
+void DecoupledLaw::activatePlan() noexcept {
+  base_.activatePlan();
+  active_ = planned_;
+}
+
+void DecoupledLaw::sample(SimTime now, PolicySample& out) const noexcept {
+  base_.sample(now, out);
+  constexpr int kRates = kPositionDim + kArmRate1;
+  const Vector3 position = active_.position + toSeconds(now - active_.stamp) * active_.rate;
+  out.x.segment<3>(kArm1) = position;
+  out.x.segment<3>(kRates) = active_.rate;
+  out.joint_position.tail<kArmJointCount>() = position;
+  out.joint_velocity.tail<kArmJointCount>() = active_.rate;
+  out.torque.tail<kArmJointCount>() = hold_torque_ + active_.integral;
+  out.feedback.bottomRows<kArmJointCount>().setZero();
+  out.feedback.middleCols<3>(kArm1).setZero();
+  out.feedback.middleCols<3>(kRates).setZero();
+  for (int i = 0; i < kArmJointCount; ++i) {
+    out.feedback(kWheelCount + i, kArm1 + i) = -pid_.stiffness;
+    out.feedback(kWheelCount + i, kRates + i) = -pid_.damping;
+  }
+}
+
+void DecoupledLaw::commanded(SimTime now, SimDuration period, const JointVector& torque) noexcept {
+  base_.commanded(now, period, torque);
+}
+
+StateBlob DecoupledLaw::saveState() const {
+  BlobWriter out;
+  for (const ArmPlan* plan : {&planned_, &active_}) {
+    out.put(plan->valid);
+    out.put(toNs(plan->stamp));
+    for (const Vector3* v : {&plan->position, &plan->rate, &plan->integral}) out.putDoubles(v->data(), 3);
+  }
+  out.putBlob(base_.saveState());
+  return out.seal(kBlobKind, kBlobVersion);
+}
+
+void DecoupledLaw::restoreState(const StateBlob& blob) {
+  BlobReader in(blob, kBlobKind, kBlobVersion);
+  ArmPlan planned, active;
+  for (ArmPlan* plan : {&planned, &active}) {
+    plan->valid = in.get<bool>();
+    plan->stamp = simTimeFromNs(in.get<std::int64_t>());
+    for (Vector3* v : {&plan->position, &plan->rate, &plan->integral}) in.getDoubles(v->data(), 3);
+  }
+  const StateBlob base = in.getBlob();
+  in.finish();
+  base_.restoreState(base);
+  planned_ = planned;
+  active_ = active;
+}
+
+}  // namespace ballbot

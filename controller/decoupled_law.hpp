@@ -1,0 +1,67 @@
+#pragma once
+
+#include "controller/arm_inverse_kinematics.hpp"
+#include "controller/mpc_law.hpp"
+
+namespace ballbot {
+
+struct ArmPidConfig {
+  double stiffness = 80;       ///< [N m/rad]
+  double damping = 6;          ///< [N m s/rad]
+  double integral = 80;        ///< [N m/(rad s)]
+  double integral_limit = 10;  ///< of the integral's torque [N m]
+
+  /// Keys, each optional: stiffness_Nm_per_rad, damping_Nms_per_rad, integral_Nm_per_rad_s,
+  /// integral_limit_Nm.
+  static ArmPidConfig read(ConfigReader& in);
+};
+
+struct DecoupledConfig {
+  ArmInverseKinematicsConfig inverse_kinematics;
+  ArmPidConfig pid;
+
+  /// Keys, each optional: inverse_kinematics, pid.
+  static DecoupledConfig read(ConfigReader& in);
+};
+
+/// The baseline the whole-body MPC is measured against (Minniti et al. 2019, third experiment): an
+/// MPC that balances a base whose arm it takes to be frozen at its nominal pose, and beside it an
+/// arm that follows the end-effector's reference by inverse kinematics and joint PID. Neither knows
+/// what the other does, and neither knows of a payload.
+///
+/// The tasks are those of the whole-body MPC: the base takes the ball's, the yaw's and the wheels',
+/// the arm takes the end-effector's. The PID stands in the plan's feedback, beside the tracker's
+/// own joint PD.
+class DecoupledLaw final : public ControlLaw {
+ public:
+  /// @param mpc  as for the whole-body law
+  /// @throw NumericalError as MpcLaw.
+  DecoupledLaw(const RobotParameters& robot, const MpcConfig& mpc, const DecoupledConfig& config);
+
+  PlanReport plan(SimTime now, const StateVector& x, const JointVector& joint_angle) noexcept override;
+  void activatePlan() noexcept override;
+  void sample(SimTime now, PolicySample& out) const noexcept override;
+  void commanded(SimTime now, SimDuration period, const JointVector& torque) noexcept override;
+
+  StateBlob saveState() const override;
+  void restoreState(const StateBlob& blob) override;
+
+ private:
+  /// What the arm is asked to do from `stamp` on: a set-point that moves at a constant rate.
+  struct ArmPlan {
+    bool valid = false;
+    SimTime stamp{};
+    Vector3 position = Vector3::Zero(), rate = Vector3::Zero();
+    Vector3 integral = Vector3::Zero();  ///< torque of the integral [N m]
+  };
+  void planArm(SimTime now, const StateVector& x) noexcept;
+
+  Vector3 frozen_arm_, hold_torque_;  ///< [rad], [N m]: of the arm at rest in its nominal pose
+  std::shared_ptr<const TaskSchedule> schedule_;
+  ArmInverseKinematics inverse_kinematics_;
+  ArmPidConfig pid_;
+  MpcLaw base_;
+  ArmPlan planned_, active_;
+};
+
+}  // namespace ballbot

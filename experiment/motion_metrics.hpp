@@ -1,0 +1,41 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "controller/mpc_planner.hpp"
+#include "experiment/scenario.hpp"
+#include "metrics/limit_margins.hpp"
+#include "metrics/tracking_metrics.hpp"
+
+namespace ballbot {
+
+/// The robot as the scenario's controller believes it to be: with the payload it knows of.
+/// @throw InputError
+RobotParameters believedRobot(const Scenario& scenario);
+
+/// The `mpc` section of the scenario's controller; nothing where another law is in charge.
+/// @throw InputError
+std::optional<MpcConfig> readMpc(const Scenario& scenario);
+
+/// What a scenario's tasks and limits say about a run: how well ball and end-effector were where
+/// they should be, and how close the run came to its limits.
+class MotionMetrics {
+ public:
+  /// @throw InputError as the readers of the controller's section.
+  explicit MotionMetrics(const Scenario& scenario);
+
+  void add(const TruthFrame& truth, const ActuatorCommand& command);
+
+  std::map<std::string, double> values() const;
+  static std::vector<std::string> names();
+
+ private:
+  std::optional<MpcConfig> mpc_;
+  TrackingMetrics tracking_;
+  LimitMargins margins_;
+};
+
+}  // namespace ballbot

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "model/truth.hpp"
+
+namespace ballbot {
+
+/// Where ball and end-effector should be at one instant, and which components are asked for.
+struct PlaceReference {
+  Eigen::Vector2d ball = Eigen::Vector2d::Zero();  ///< in W [m]
+  Vector3 ee = Vector3::Zero();                    ///< p_WE [m]
+  Eigen::Array2d ball_asked = Eigen::Array2d::Zero();  ///< 1 for a component that has a weight, else 0
+  Eigen::Array3d ee_asked = Eigen::Array3d::Zero();
+};
+
+/// How far ball and end-effector are from where they should be, over all times at which they should
+/// be anywhere; only components that are asked for count.
+class TrackingMetrics {
+ public:
+  /// @param from  times before do not count
+  explicit TrackingMetrics(SimTime from) : from_(from) {}
+
+  void add(const TruthFrame& truth, const PlaceReference& reference);
+
+  /// rms_ and largest_ of ball_tracking_error_m and ee_tracking_error_m; absent where nothing was
+  /// asked.
+  std::map<std::string, double> values() const;
+  static std::vector<std::string> names();
+
+ private:
+  struct Error {
+    double square_integral = 0, time = 0, largest = 0;
+    bool any = false;
+    void add(double error, double dt);
+  };
+  SimTime from_, last_{};
+  bool begun_ = false;
+  Error ball_, ee_;
+};
+
+}  // namespace ballbot

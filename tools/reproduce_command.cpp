@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "experiment/run_record.hpp"
+#include "experiment/text_file.hpp"
+#include "tools/commands.hpp"
+#include "tools/interrupt.hpp"
+#include "tools/progress.hpp"
+#include "tools/reproduction_figure.hpp"
+#include "tools/reproduction_page.hpp"
+
+namespace ballbot {
+namespace {
+
+struct ReproduceArguments {
+  std::vector<std::string> only, overrides;
+  std::string out = "reproduction", scenarios = "configs/scenarios";
+  bool in_process = false, json = false, quiet = false;
+};
+
+/// The experiments to run. @throw InputError naming the known ones.
+std::vector<const PaperExperiment*> chosen(const std::vector<std::string>& only) {
+  std::vector<const PaperExperiment*> out;
+  std::vector<std::string> names;
+  for (const PaperExperiment& e : paperExperiments()) {
+    names.push_back(e.scenario);
+    if (only.empty() || std::find(only.begin(), only.end(), e.scenario) != only.end()) out.push_back(&e);
+  }
+  for (const std::string& name : only) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      throw InputError(fmt::format("--only {}: no such experiment; there are: {}", name, fmt::join(names, ", ")));
+    }
+  }
+  return out;
+}
+
+nlohmann::ordered_json toJson(const std::vector<Scenario>& scenarios, const std::vector<ReproducedExperiment>& done,
+                              const std::vector<Comparison>& comparisons, bool passed, const std::string& page) {
+  nlohmann::ordered_json j;
+  j["passed"] = passed;
+  j["page"] = page;
+  j["experiments"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < done.size(); ++i) {
+    nlohmann::ordered_json entry = summaryJson(scenarios[i], *done[i].result);
+    entry["run_folder"] = done[i].result->folder.path();
+    j["experiments"].push_back(std::move(entry));
+  }
+  j["comparisons"] = nlohmann::ordered_json::array();
+  for (const Comparison& c : comparisons) {
+    j["comparisons"].push_back({{"claim", c.claim}, {"measured", c.measured}, {"passed", c.passed}});
+  }
+  return j;
+}
+
+std::string tableText(const std::vector<ReproducedExperiment>& done, const std::vector<Comparison>& comparisons,
+                      const std::string& page) {
+  std::string out;
+  for (const ReproducedExperiment& e : done) {
+    out += fmt::format("{:<32} {:<8} {}\n", e.experiment->scenario, e.result->passed ? "passed" : "MISSED",
+                       e.result->trajectory_digest);
+    for (const VerdictRow& row : e.result->verdicts) {
+      if (row.passed) continue;
+      out += fmt::format("  {} is {}, must be {}\n", row.metric, row.measured ? fmt::format("{:.4g}", row.value) : "none", row.limit);
+    }
+  }
+  for (const Comparison& c : comparisons) {
+    out += fmt::format("{}: {}: {}\n", c.passed ? "passed" : "MISSED", c.claim, c.measured);
+  }
+  return out + fmt::format("page: {}\n", page);
+}
+
+ExitCode reproduce(const ReproduceArguments& a) {
+  const std::vector<const PaperExperiment*> experiments = chosen(a.only);
+  // All are read before the first is run: a mistake in the last should not cost the time of all others.
+  std::vector<Scenario> scenarios;
+  double total_s = 0;
+  for (const PaperExperiment* e : experiments) {
+    scenarios.push_back(loadScenario(a.scenarios + "/" + e->scenario + ".yaml", a.overrides));
+    total_s += toSeconds(scenarios.back().duration);
+  }
+
+  Progress progress("reproduce", a.quiet);
+  std::map<std::string, RunResult> results;
+  std::vector<ReproducedExperiment> done;
+  double done_s = 0;
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    const Scenario& scenario = scenarios[i];
+    RunOptions options;
+    options.in_process = a.in_process;
+    options.stop = interruptFlag();
+    options.progress = [&](SimTime now) {
+      if (toNs(now) % 10'000'000 != 0) return;
+      progress.update((done_s + toSeconds(now)) / total_s,
+                      fmt::format("{} of {}: {} {:.1f} of {:g} s", i + 1, experiments.size(), scenario.name, toSeconds(now),
+                                  toSeconds(scenario.duration)));
+    };
+    const auto [at, inserted] = results.emplace(experiments[i]->scenario, runExperiment(scenario, a.out + "/" + scenario.name, options));
+    done_s += toSeconds(scenario.duration);
+    const RunResult& result = at->second;
+    done.push_back({experiments[i], &result, reproductionFigure(scenario, result.folder.logFile(), experiments[i]->panels),
+                    scenario.name + "/report.html"});
+    writeTextFile(a.out + "/" + scenario.name + ".svg", done.back().figure);
+  }
+  progress.finish();
+
+  const std::vector<Comparison> comparisons = compareExperiments(results);
+  bool passed = true;
+  for (const ReproducedExperiment& e : done) passed = passed && e.result->passed;
+  for (const Comparison& c : comparisons) passed = passed && c.passed;
+  const std::string page = a.out + "/index.html";
+  writeTextFile(page, reproductionPage(done, comparisons));
+  if (a.json) {
+    fmt::print("{}\n", toJson(scenarios, done, comparisons, passed, page).dump(2));
+  } else {
+    fmt::print("{}", tableText(done, comparisons, page));
+  }
+  return passed ? ExitCode::kPassed : ExitCode::kRequirementMissed;
+}
+
+}  // namespace
+
+void addReproduceCommand(CLI::App& program, ExitCode& result) {
+  CLI::App* command = program.add_subcommand("reproduce", "Repeat the paper's experiments and write one page about them");
+  const auto a = std::make_shared<ReproduceArguments>();
+  command->add_option("--only", a->only, "Only the experiment of this name; repeatable")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option("--out", a->out, "Folder for the page and the run folders")->capture_default_str();
+  command->add_option("--scenarios", a->scenarios, "Folder of the scenario files")->capture_default_str();
+  command->add_option("--set", a->overrides, "path=value: change one value of every scenario; repeatable")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_flag("--in-process", a->in_process, "Controller and plant in one process; same bits, no LCM");
+  command->add_flag("--json", a->json, "Print verdicts and metrics as JSON");
+  command->add_flag("--quiet", a->quiet, "No progress on stderr");
+  command->footer(
+      "Examples:\n"
+      "  ballbot reproduce\n"
+      "  ballbot reproduce --only disturbance_ball --only disturbance_ee --out /tmp/pushes --json\n"
+      "Exit codes: 0 all passed, 1 a requirement was missed, 2 bad input, 3 a participant was lost,\n"
+      "4 output could not be written, 130 interrupted.");
+  command->callback([&result, a] { result = reproduce(*a); });
+}
+
+}  // namespace ballbot

@@ -1,0 +1,148 @@
+#include "tools/reproduction_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "cosim/log_reader.hpp"
+#include "experiment/contact_report.hpp"
+#include "experiment/log_tables.hpp"
+#include "experiment/motion_metrics.hpp"
+#include "metrics/ee_step_metrics.hpp"
+#include "model/frames.hpp"
+#include "plant/environment.hpp"
+#include "report/svg_figure.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr double kDegrees = 57.295779513082320877;  ///< per rad
+/// Enough for a line as wide as the picture.
+constexpr std::size_t kSamples = 400;
+
+using Message = ballbot_msgs::truth_frame;
+
+/// The panels of one run's picture.
+class Panels {
+ public:
+  Panels(const Scenario& scenario, const RunLog& log) : log_(log), tables_(logTables(log)) {
+    if (const auto mpc = readMpc(scenario)) schedule_ = mpc->schedule;
+    for (const Push& push : scheduledPushes(scenario.tree)) {
+      shaded_.push_back({toSeconds(push.start), toSeconds(push.end())});
+    }
+    for (const ReportPhase& phase : contactPhases(log)) shaded_.push_back({phase.start_s, phase.end_s});
+    stride_ = std::max<std::size_t>(1, log.truth.size() / kSamples);
+  }
+
+  /// @param name  see PaperExperiment::panels
+  SvgAxes panel(const std::string& name) const {
+    SvgAxes axes = named(name);
+    axes.x_label = "time [s]";
+    axes.shaded = shaded_;
+    return axes;
+  }
+
+ private:
+  SvgAxes named(const std::string& name) const {
+    SvgAxes axes;
+    if (name == "ball") {
+      axes.y_label = "ball [m]";
+      for (int i = 0; i < 2; ++i) addWithReference(axes, i == 0 ? "x" : "y", i, ballAsked(i), 1,
+          [i](const Message& m) { return m.q[kBallX + i]; }, [i](const Tasks& t) { return t.ball_position[i]; });
+    } else if (name == "ee") {
+      axes.y_label = "end-effector [m]";
+      for (int i = 0; i < 3; ++i) addWithReference(axes, std::string(1, static_cast<char>('x' + i)), i, eeAsked(i), 1,
+          [i](const Message& m) { return m.p_WE[i]; }, [i](const Tasks& t) { return t.p_WE[i]; });
+    } else if (name == "ee_angles") {
+      axes.y_label = "end-effector [deg]";
+      const char* const names[] = {"yaw", "pitch", "roll"};
+      for (int i = 0; i < 3; ++i) addWithReference(axes, names[i], i, schedule_ != nullptr, kDegrees,
+          [i](const Message& m) { return poseOf(m)[3 + i]; },
+          [i](const Tasks& t) { return yawPitchRollFromRotation(t.R_WE)[i]; });
+    } else if (name == "tilt") {
+      axes.y_label = "base [deg]";
+      addTruth(axes, "pitch", 0, kDegrees, [](const Message& m) { return m.q[kPitch]; });
+      addTruth(axes, "roll", 1, kDegrees, [](const Message& m) { return m.q[kRoll]; });
+    } else if (name == "arm") {
+      axes.y_label = "arm joint [rad]";
+      for (int i = 0; i < 3; ++i)
+        addTruth(axes, "joint " + std::to_string(i + 1), i, 1, [i](const Message& m) { return m.q[kArm1 + i]; });
+    } else if (name == "force") {
+      axes.y_label = "contact force [N]";
+      addTruth(axes, "on the door", 0, 1, [](const Message& m) {
+        return std::hypot(m.contact_force_W[0], m.contact_force_W[1]);
+      });
+      if (const LogTable* plan = findTable(tables_, "plan")) {
+        SvgSeries asked{"asked for", 1, true, {}, {}};
+        const auto& t = plan->column("time_s");
+        const auto& x = plan->column("contact_asked_W_x");
+        const auto& y = plan->column("contact_asked_W_y");
+        for (std::size_t i = 0; i < t.size(); i += 3) {
+          asked.x.push_back(t[i]);
+          asked.y.push_back(std::hypot(x[i], y[i]));
+        }
+        axes.series.push_back(std::move(asked));
+      }
+    } else {
+      axes.y_label = "door angle [deg]";
+      addTruth(axes, "door", 0, kDegrees, [](const Message& m) { return m.door_angle; });
+    }
+    return axes;
+  }
+
+  static PoseVector poseOf(const Message& m) {
+    TruthFrame truth;
+    truth.p_WE << m.p_WE[0], m.p_WE[1], m.p_WE[2];
+    truth.quat_WE << m.quat_WE[0], m.quat_WE[1], m.quat_WE[2], m.quat_WE[3];
+    return eePose(truth);
+  }
+
+  /// Whether a component has a weight at the run's end.
+  bool ballAsked(int i) const { return schedule_ && tasksAt(endTime()).ball_position_weight[i] > 0; }
+  bool eeAsked(int i) const { return schedule_ && tasksAt(endTime()).ee_position_weight[i] > 0; }
+  double endTime() const { return log_.truth.empty() ? 0 : 1e-9 * static_cast<double>(log_.truth.back().sim_time_ns); }
+  Tasks tasksAt(double t) const {
+    Tasks tasks;
+    schedule_->at(t, t, tasks);
+    return tasks;
+  }
+
+  template <typename Value>
+  void addTruth(SvgAxes& axes, const std::string& name, int colour, double scale, Value value) const {
+    SvgSeries series{name, colour, false, {}, {}};
+    for (std::size_t i = 0; i < log_.truth.size(); i += stride_) {
+      series.x.push_back(1e-9 * static_cast<double>(log_.truth[i].sim_time_ns));
+      series.y.push_back(scale * value(log_.truth[i]));
+    }
+    axes.series.push_back(std::move(series));
+  }
+
+  template <typename Value, typename Reference>
+  void addWithReference(SvgAxes& axes, const std::string& name, int colour, bool asked, double scale, Value value,
+                        Reference reference) const {
+    addTruth(axes, name, colour, scale, value);
+    if (!asked) return;
+    SvgSeries series{name + " reference", colour, true, axes.series.back().x, {}};
+    for (const double t : series.x) series.y.push_back(scale * reference(tasksAt(t)));
+    axes.series.push_back(std::move(series));
+  }
+
+  const RunLog& log_;
+  std::vector<LogTable> tables_;
+  std::shared_ptr<const TaskSchedule> schedule_;
+  std::vector<SvgSpan> shaded_;
+  std::size_t stride_ = 1;
+};
+
+}  // namespace
+
+std::string reproductionFigure(const Scenario& scenario, const std::string& log_file,
+                               const std::vector<std::string>& panels) {
+  const RunLog log = readRunLog(log_file);
+  const Panels source(scenario, log);
+  std::vector<SvgAxes> axes;
+  for (const std::string& name : panels) axes.push_back(source.panel(name));
+  return svgFigure("", axes);
+}
+
+}  // namespace ballbot
