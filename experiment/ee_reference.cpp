@@ -1,6 +1,7 @@
 #include "experiment/ee_reference.hpp"
 
 #include "core/config_reader.hpp"
+#include "experiment/believed_robot.hpp"
 #include "experiment/motion_metrics.hpp"
 #include "model/frames.hpp"
 #include "model/reduced_dynamics.hpp"

@@ -5,6 +5,7 @@
 
 #include "controller/pd_tracker.hpp"
 #include "core/config_reader.hpp"
+#include "experiment/believed_robot.hpp"
 #include "experiment/motion_metrics.hpp"
 #include "model/actuator_response.hpp"
 #include "plant/plant_config.hpp"

@@ -1,6 +1,7 @@
 #include "experiment/motion_metrics.hpp"
 
 #include "core/config_reader.hpp"
+#include "experiment/believed_robot.hpp"
 #include "model/robot_reader.hpp"
 
 namespace ballbot {
@@ -23,14 +24,6 @@ PlaceReference placeAt(const TaskSchedule& schedule, double t) {
 }
 
 }  // namespace
-
-RobotParameters believedRobot(const Scenario& scenario) {
-  ConfigReader robot_in(scenario.section("robot"), "robot");
-  RobotParameters robot = readRobot(robot_in);
-  ConfigReader in(scenario.section("controller"), "controller");
-  robot.payload_mass = in.numberOr("known_payload_kg", robot.payload_mass, {0, 5});
-  return robot;
-}
 
 std::optional<MpcConfig> readMpc(const Scenario& scenario) {
   ConfigReader in(scenario.section("controller"), "controller");

@@ -12,10 +12,6 @@
 
 namespace ballbot {
 
-/// The robot as the scenario's controller believes it to be: with the payload it knows of.
-/// @throw InputError
-RobotParameters believedRobot(const Scenario& scenario);
-
 /// The `mpc` section of the scenario's controller; nothing where another law is in charge.
 /// @throw InputError
 std::optional<MpcConfig> readMpc(const Scenario& scenario);

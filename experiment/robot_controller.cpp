@@ -6,13 +6,15 @@
 #include "controller/law_factory.hpp"
 #include "controller/policy_sample_blob.hpp"
 #include "core/config_reader.hpp"
+#include "experiment/believed_robot.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "model/robot_reader.hpp"
 
 namespace ballbot {
 
 RobotController::RobotController(const Scenario& scenario, EventCalendar& calendar)
-    : tracker_period_(scenario.rates.tracker),
+    : release_(scenario.release),
+      tracker_period_(scenario.rates.tracker),
       plan_latency_(scenario.rates.plan_latency),
       sensing_(scenario) {
   ConfigReader robot_in(scenario.section("robot"), "robot");

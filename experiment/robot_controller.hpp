@@ -54,6 +54,7 @@ class RobotController final : public SteppedController {
   void plan(SimTime now, const SensorFrame& sensors, ControlOutput& out);
   void track(SimTime now, const SensorFrame& sensors, ControlOutput& out);
 
+  SimTime release_;
   SimDuration tracker_period_, plan_latency_;
   RobotSensing sensing_;
   std::unique_ptr<ControlLaw> law_;

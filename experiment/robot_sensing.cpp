@@ -2,6 +2,7 @@
 
 #include "core/config_reader.hpp"
 #include "estimator/estimator_factory.hpp"
+#include "experiment/believed_robot.hpp"
 #include "messages/convert.hpp"
 #include "model/robot_reader.hpp"
 
@@ -17,13 +18,6 @@ RobotParameters robotOf(const Scenario& scenario) {
 }
 
 }  // namespace
-
-RobotParameters believedRobot(const Scenario& scenario) {
-  RobotParameters robot = robotOf(scenario);
-  ConfigReader in(scenario.section("controller"), "controller");
-  robot.payload_mass = in.numberOr("known_payload_kg", robot.payload_mass, {0, 5});
-  return robot;
-}
 
 RobotSensing::RobotSensing(const Scenario& scenario)
     : release_(scenario.release), contact_force_(believedRobot(scenario), kContactForceBandwidth) {

@@ -11,11 +11,6 @@
 
 namespace ballbot {
 
-/// The robot as the controller has it: with the payload it believes it carries
-/// (`controller.known_payload_kg`); what it does carry stands in `environment`.
-/// @throw InputError with file, line and column.
-RobotParameters believedRobot(const Scenario& scenario);
-
 /// All that a controller makes of sensor frames before it decides anything: the estimator and the
 /// contact force observer, one frame per period of the estimator. The controller process and the
 /// replay of a log use this one class, so they cannot differ.
