@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angle.hpp"
 #include "hil/emulator/sdo_server.hpp"
 
 namespace ballbot {
@@ -12,7 +13,6 @@ using namespace sdo_abort;
 
 constexpr std::uint32_t kServoDrive = 0x00020192;  // 1000: CiA 402, type 2: servo drive
 constexpr std::uint32_t kProduct = 0xBA11;
-constexpr double kTwoPi = 6.283185307179586476925;
 constexpr double kNmPerMilli = 1e-3;
 constexpr std::int64_t kModeCsp = 8, kModeCst = 10;
 constexpr std::int64_t kSupportedModes = 1 << 7 | 1 << 9;

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/config_node.hpp"
+#include "core/time.hpp"
+#include "hil/bench_signals.hpp"
+#include "hil/drive_scaling.hpp"
+#include "hil/pdo_mapping.hpp"
+
+namespace ballbot {
+
+struct BusConfig {
+  std::string address;  ///< slcan:/dev/ttyACM0 or socketcan:can0
+  int bitrate_kbps = 1000;
+};
+
+/// Where the PD law of the joints is closed.
+enum class DriveMode {
+  kTorque,    ///< cyclic synchronous torque (10): the tracker runs at bus rate
+  kPosition,  ///< cyclic synchronous position (8) with offsets: PD in the drive
+};
+
+struct DriveLimits {
+  double torque = 0;                           ///< [N m]; what is sent is cut to it
+  double torque_rate = 0;                      ///< [N m/s]; likewise
+  double velocity = 0;                         ///< [rad/s]; beyond it the bench stops
+  double position_low = 0, position_high = 0;  ///< [rad]; likewise
+};
+
+struct DriveConfig {
+  std::string name;  ///< "wheel 1"
+  int bus = 0, node = 0;
+  DriveScaling scaling;
+  DriveLimits limits;
+  double stiffness = 0, damping = 0;  ///< of the drive's position loop in kPosition mode
+};
+
+struct ImuConfig {
+  int bus = 0, node = 7;
+  double accel_resolution = 4.79e-3;  ///< [m/s^2] per count
+  double gyro_resolution = 1.065e-3;  ///< [rad/s] per count
+};
+
+struct SafetyConfig {
+  int watchdog_cycles = 20;        ///< without a new command
+  int damping_cycles = 80;         ///< bounded damping, then torque off
+  double damping = 0.5;            ///< [N m s/rad]
+  double damping_torque = 2;       ///< its bound [N m]
+  int ramp_cycles = 40;            ///< torque from zero to all of it after engaging
+  double rest_velocity = 0.05;     ///< engage only below it [rad/s]
+  double tilt = 0.35;              ///< [rad]
+  int stale_cycles = 3;            ///< a drive's or the IMU's frames missing
+  int heartbeat_cycles = 12;       ///< a heartbeat missing
+  int late_cycles = 4;             ///< periods skipped in a row by the loop
+  int transition_cycles = 40;      ///< for a drive to confirm a transition
+  double encoder_mismatch = 0.05;  ///< position against integrated velocity [rad]
+};
+
+struct RealtimeConfig {
+  int priority = 80;               ///< SCHED_FIFO
+  SimDuration collect{1'200'000};  ///< after SYNC: the drives' answers are awaited so long
+  SimDuration act{1'500'000};      ///< after SYNC: the command goes out
+};
+
+/// The bench as the adapter has it: buses, drives, IMU, limits.
+struct BenchConfig {
+  SimDuration cycle{2'500'000};
+  bool stepped = false;  ///< SYNC is the clock: no wall-clock time at all
+  int master_node = 127;
+  DriveMode mode = DriveMode::kTorque;
+  bool synchronous_outputs = false;  ///< RPDOs act at the next SYNC instead of on reception
+  int master_heartbeat_ms = 5, master_timeout_ms = 25;  ///< the drives' watch over the master
+  int drive_heartbeat_ms = 10;
+  int output_deadline_ms = 15;      ///< RPDO event timer in the drives; 0: none
+  std::vector<PdoMapping> outputs;  ///< RPDO1..
+  std::vector<PdoMapping> inputs;   ///< TPDO1..
+  std::vector<BusConfig> buses;
+  std::array<DriveConfig, kDriveCount> drives;
+  ImuConfig imu;
+  SafetyConfig safety;
+  RealtimeConfig realtime;
+  std::string scenario_path;
+  std::vector<std::string> overrides;  ///< of the scenario, "path=value"
+
+  double cycleSeconds() const { return toSeconds(cycle); }
+  int cyclesOf(int ms) const;  ///< rounded up
+};
+
+/// Reads everything but the section `emulator`, which is the emulated drives' own.
+/// @throw InputError with file, line and column.
+BenchConfig readBenchConfig(const ConfigNode& tree);
+
+}  // namespace ballbot

@@ -1,0 +1,65 @@
+#include "hil/bench_io.hpp"
+
+#include <array>
+#include <utility>
+
+#include <poll.h>
+
+namespace ballbot {
+
+BenchIo::BenchIo(BenchMaster& master, std::vector<CanBus*> buses)
+    : master_(master), buses_(std::move(buses)), load_(buses_.size()) {}
+
+void BenchIo::count(std::size_t bus, const CanFrame& frame) noexcept {
+  const FrameBits bits = bitsOf(frame);
+  load_[bus].nominal += bits.nominal;
+  load_[bus].worst += bits.worst;
+}
+
+void BenchIo::send() noexcept {
+  for (std::size_t i = 0; i < buses_.size(); ++i) {
+    FrameQueue& queue = master_.outbox(static_cast<int>(i));
+    for (const CanFrame& frame : queue) {
+      if (buses_[i]->send(frame)) count(i, frame);
+    }
+    queue.clear();
+  }
+}
+
+bool BenchIo::collect(std::chrono::steady_clock::time_point until) noexcept {
+  CanFrame frame;
+  for (;;) {
+    for (std::size_t i = 0; i < buses_.size(); ++i) {
+      while (buses_[i]->receive(frame)) {
+        count(i, frame);
+        master_.onFrame(static_cast<int>(i), frame);
+      }
+    }
+    send();
+    if (!master_.isAwaited()) return true;
+    const auto left = until - std::chrono::steady_clock::now();
+    if (left <= std::chrono::nanoseconds::zero() || !wait(left)) return false;
+  }
+}
+
+bool BenchIo::wait(std::chrono::nanoseconds timeout) noexcept {
+  if (buses_.size() == 1) return buses_[0]->waitReadable(timeout);
+  // Frames a bus has buffered already count too.
+  std::array<pollfd, 2> entries{};
+  for (std::size_t i = 0; i < buses_.size(); ++i) {
+    if (buses_[i]->waitReadable(std::chrono::nanoseconds::zero())) return true;
+    if (buses_[i]->descriptor() < 0) return false;
+    entries[i] = {buses_[i]->descriptor(), POLLIN, 0};
+  }
+  const timespec time{timeout.count() / 1'000'000'000, timeout.count() % 1'000'000'000};
+  return ::ppoll(entries.data(), static_cast<nfds_t>(buses_.size()), &time, nullptr) > 0;
+}
+
+bool BenchIo::allUp() const noexcept {
+  for (const CanBus* bus : buses_) {
+    if (!bus->isUp()) return false;
+  }
+  return true;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,218 @@
+#include "hil/bench_master.hpp"
+
+#include <algorithm>
+
+namespace ballbot {
+namespace {
+
+constexpr int kBootMs = 2000, kSdoMs = 500;
+constexpr std::uint8_t kImuPdos = 2, kAllImuPdos = 3;
+constexpr std::uint8_t kAccelBytes = 8, kGyroBytes = 6;
+
+/// Number of the TPDO a frame is for `node`, or -1.
+int tpdoOf(const CanFrame& f, int node) noexcept {
+  if (f.extended || f.remote) return -1;
+  for (std::size_t i = 0; i < kCobTpdo.size(); ++i) {
+    if (f.id == kCobTpdo[i] + static_cast<std::uint32_t>(node)) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+}  // namespace
+
+BenchMaster::BenchMaster(const BenchConfig& config)
+    : config_(config), outbox_(config.buses.size()) {
+  const int sdo = config.cyclesOf(kSdoMs);
+  for (const DriveConfig& d : config.drives) {
+    links_.emplace_back(d.node, driveSetup(config, d), sdo, config.safety.heartbeat_cycles);
+  }
+  links_.emplace_back(config.imu.node, imuSetup(config), sdo, config.safety.heartbeat_cycles);
+  status_ = findInput({0x6041, 0});
+  torque_ = findInput({0x6077, 0});
+  position_ = findInput({0x6064, 0});
+  velocity_ = findInput({0x606C, 0});
+  motor_position_ = findInput({0x60E4, 1});
+  heartbeat_period_ = std::max(
+      1, static_cast<int>(std::chrono::milliseconds(config.master_heartbeat_ms) / config.cycle));
+}
+
+BenchMaster::Input BenchMaster::findInput(ObjectAddress object) const noexcept {
+  for (std::size_t i = 0; i < config_.inputs.size(); ++i) {
+    if (const PdoField field = config_.inputs[i].find(object)) {
+      return {field, static_cast<std::uint8_t>(i)};
+    }
+  }
+  return {};
+}
+
+void BenchMaster::pushAll(const CanFrame& frame) noexcept {
+  for (FrameQueue& queue : outbox_) queue.push(frame);
+}
+
+void BenchMaster::reset() noexcept {
+  running_ = false;
+  for (NodeLink& link : links_) link.expectBootUp(config_.cyclesOf(kBootMs));
+  pushAll(nmtFrame(NmtCommand::kResetNode, 0));
+}
+
+bool BenchMaster::configured() const noexcept {
+  return std::all_of(links_.begin(), links_.end(), [](const NodeLink& link) {
+    return link.phase() == NodeLink::Phase::kConfigured;
+  });
+}
+
+void BenchMaster::start() noexcept {
+  for (NodeLink& link : links_) link.start();
+  pushAll(nmtFrame(NmtCommand::kStart, 0));
+  running_ = true;
+}
+
+void BenchMaster::beginCycle() noexcept {
+  ++cycle_;
+  pdos_seen_ = {};
+  imu_seen_ = 0;
+  if (!running_) return;
+  if (cycle_ % heartbeat_period_ == 0) {
+    pushAll(heartbeatFrame(config_.master_node, NmtState::kOperational));
+  }
+  pushAll(syncFrame());
+}
+
+void BenchMaster::onFrame(int bus, const CanFrame& frame) noexcept {
+  FrameQueue& out = outbox(bus);
+  for (int i = 0; i < kDriveCount; ++i) {
+    const DriveConfig& d = config_.drives[static_cast<std::size_t>(i)];
+    if (d.bus != bus) continue;
+    if (links_[static_cast<std::size_t>(i)].onFrame(frame, out)) return;
+    const int pdo = tpdoOf(frame, d.node);
+    if (pdo >= 0) return readPdo(i, pdo, frame);
+  }
+  if (config_.imu.bus != bus || links_[kImuLink].onFrame(frame, out)) return;
+  const int pdo = tpdoOf(frame, config_.imu.node);
+  if (pdo >= 0) readImu(pdo, frame);
+}
+
+void BenchMaster::readPdo(int i, int pdo, const CanFrame& frame) noexcept {
+  const auto n = static_cast<std::size_t>(i);
+  if (!running_) return;
+  if (static_cast<std::size_t>(pdo) >= config_.inputs.size() ||
+      frame.size != config_.inputs[static_cast<std::size_t>(pdo)].bytes()) {
+    ++bad_pdos_;  // counts as missing
+    return;
+  }
+  const DriveScaling& scale = config_.drives[n].scaling;
+  const auto in = [&](const Input& input) { return input.field && input.pdo == pdo; };
+  if (in(status_))
+    drives_[n].statusword = static_cast<std::uint16_t>(status_.field.getUnsigned(frame));
+  if (in(torque_)) sample_.joint_torque[n] = scale.torque(torque_.field.getSigned(frame));
+  if (in(position_)) sample_.joint_angle[n] = scale.angle(position_.field.getSigned(frame));
+  if (in(velocity_)) sample_.joint_velocity[n] = scale.velocity(velocity_.field.getSigned(frame));
+  if (in(motor_position_)) {
+    sample_.motor_angle[n] = scale.motorAngle(motor_position_.field.getSigned(frame));
+  }
+  pdos_seen_[n] = static_cast<std::uint8_t>(pdos_seen_[n] | 1U << pdo);
+}
+
+void BenchMaster::readImu(int pdo, const CanFrame& frame) noexcept {
+  if (!running_ || pdo >= kImuPdos) return;
+  if (frame.size != (pdo == 0 ? kAccelBytes : kGyroBytes)) {
+    ++bad_pdos_;
+    return;
+  }
+  const double unit = pdo == 0 ? config_.imu.accel_resolution : config_.imu.gyro_resolution;
+  std::array<double, 3>& axes = pdo == 0 ? sample_.accel : sample_.gyro;
+  for (std::size_t i = 0; i < 3; ++i) {
+    axes[i] = static_cast<double>(getSigned(&frame.data[2 * i], 2)) * unit;
+  }
+  if (pdo == 0) {
+    imu_pending_counter_ = static_cast<std::uint16_t>(getLittleEndian(&frame.data[6], 2));
+  }
+  imu_seen_ = static_cast<std::uint8_t>(imu_seen_ | 1U << pdo);
+}
+
+bool BenchMaster::isAwaited() const noexcept {
+  for (const NodeLink& link : links_) {
+    if (link.awaitsAnswer()) return true;
+  }
+  if (!running_) return false;
+  const auto all = static_cast<std::uint8_t>((1U << config_.inputs.size()) - 1);
+  for (const std::uint8_t seen : pdos_seen_) {
+    if (seen != all) return true;
+  }
+  return imu_seen_ != kAllImuPdos;
+}
+
+void BenchMaster::endCycle() noexcept {
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const int bus = i < kDriveCount ? config_.drives[i].bus : config_.imu.bus;
+    links_[i].onCycle(outbox(bus));
+  }
+  if (!running_) return;
+  const auto all = static_cast<std::uint8_t>((1U << config_.inputs.size()) - 1);
+  for (std::size_t i = 0; i < kDriveCount; ++i) {
+    drives_[i].stale_cycles = pdos_seen_[i] == all ? 0 : drives_[i].stale_cycles + 1;
+    if (!motor_position_.field) {
+      sample_.motor_angle[i] = sample_.joint_angle[i] +
+                               sample_.joint_torque[i] / config_.drives[i].scaling.spring_stiffness;
+    }
+  }
+  // A counter that stands still is an IMU that hangs, whatever it goes on sending.
+  const auto grown = static_cast<std::uint16_t>(imu_pending_counter_ - imu_counter_);
+  if (imu_seen_ == kAllImuPdos && grown != 0) {
+    sample_.imu_count += sample_.imu_count == 0 ? 1 : grown;
+    sample_.imu_cycle = cycle_;
+    imu_counter_ = imu_pending_counter_;
+    imu_stale_ = 0;
+  } else {
+    ++imu_stale_;
+  }
+}
+
+void BenchMaster::setGoal(DriveGoal goal) noexcept {
+  for (int i = 0; i < kDriveCount; ++i) setGoal(i, goal);
+}
+void BenchMaster::setGoal(int drive, DriveGoal goal) noexcept {
+  drives_[static_cast<std::size_t>(drive)].power.setGoal(goal);
+}
+void BenchMaster::resetFault(int drive) noexcept {
+  drives_[static_cast<std::size_t>(drive)].power.resetFault();
+}
+
+bool BenchMaster::allDrives(DriveState state) const noexcept {
+  return std::all_of(drives_.begin(), drives_.end(), [&](const Drive& d) {
+    return d.stale_cycles == 0 && driveState(d.statusword) == state;
+  });
+}
+
+void BenchMaster::writeOutputs(const BenchCommand& command) noexcept {
+  for (std::size_t i = 0; i < kDriveCount; ++i) {
+    const DriveConfig& config = config_.drives[i];
+    Drive& d = drives_[i];
+    // A statusword that did not come confirms nothing.
+    const std::uint16_t known = d.stale_cycles == 0 ? d.statusword : std::uint16_t{0};
+    const std::uint16_t controlword = d.power.next(known);
+    const bool enabled =
+        controlword == kEnableOperation && d.power.state() == DriveState::kOperationEnabled;
+    d.sent_torque = enabled ? config.scaling.torqueCounts(command.torque[i]) : 0;
+    // A drive on its way up is told to stay where it is.
+    const double angle = enabled ? command.position[i] : sample_.joint_angle[i];
+    const double velocity = enabled ? command.velocity[i] : 0;
+    for (std::size_t p = 0; p < config_.outputs.size(); ++p) {
+      const PdoMapping& map = config_.outputs[p];
+      CanFrame frame;
+      frame.id = kCobRpdo[p] + static_cast<std::uint32_t>(config.node);
+      frame.size = map.bytes();
+      const auto put = [&](std::uint16_t index, std::int64_t value) {
+        if (const PdoField field = map.find({index, 0})) field.put(frame, value);
+      };
+      put(0x6040, controlword);
+      put(0x6071, d.sent_torque);
+      put(0x60B2, d.sent_torque);
+      put(0x607A, config.scaling.angleCounts(angle));
+      put(0x60B1, config.scaling.velocityCounts(velocity));
+      outbox(config.bus).push(frame);
+    }
+  }
+}
+
+}  // namespace ballbot

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hil/bench_config.hpp"
+#include "hil/bench_signals.hpp"
+#include "hil/cia402.hpp"
+#include "hil/frame_queue.hpp"
+#include "hil/node_link.hpp"
+
+namespace ballbot {
+
+/// The CANopen master of the bench: six drives and the IMU on one or two buses. A pure state
+/// machine that is driven cycle by cycle; after construction it neither allocates, locks nor
+/// throws.
+///
+///   set-up:    reset(), then frames until nothing isAwaited(), endCycle() per cycle; start()
+///   each cycle beginCycle(), frames until nothing isAwaited(), endCycle(), then writeOutputs()
+///
+/// What it has to send is in outbox(bus); whoever sends it empties it.
+class BenchMaster {
+ public:
+  explicit BenchMaster(const BenchConfig& config);
+
+  /// Resets all nodes; they boot and are configured.
+  void reset() noexcept;
+  bool configured() const noexcept;
+  /// NMT start for all, from which on cycles run.
+  void start() noexcept;
+
+  /// SYNC on every bus, and the master's heartbeat when it is due.
+  void beginCycle() noexcept;
+  void onFrame(int bus, const CanFrame& frame) noexcept;
+  /// Whether a node still owes an answer in this cycle.
+  bool isAwaited() const noexcept;
+  /// Counts what is missing.
+  void endCycle() noexcept;
+
+  /// Sends every drive its controlword on the way to its goal, and `command` to drives that are
+  /// enabled; the others get zero.
+  void writeOutputs(const BenchCommand& command) noexcept;
+  void setGoal(DriveGoal goal) noexcept;
+  void setGoal(int drive, DriveGoal goal) noexcept;
+  /// One attempt to reset the fault that a drive has from before.
+  void resetFault(int drive) noexcept;
+
+  FrameQueue& outbox(int bus) noexcept { return outbox_[static_cast<std::size_t>(bus)]; }
+  int busCount() const noexcept { return static_cast<int>(outbox_.size()); }
+  const BenchSample& sample() const noexcept { return sample_; }
+  std::int64_t cycle() const noexcept { return cycle_; }
+
+  struct Drive {
+    std::uint16_t statusword = 0;
+    int stale_cycles = 0;  ///< since the last complete set of its PDOs
+    DrivePowerSequence power;
+    std::int64_t sent_torque = 0;  ///< per mille
+  };
+  const Drive& drive(int i) const noexcept { return drives_[static_cast<std::size_t>(i)]; }
+  const NodeLink& link(int i) const noexcept { return links_[static_cast<std::size_t>(i)]; }
+  static constexpr int kImuLink = kDriveCount;
+  int imuStaleCycles() const noexcept { return imu_stale_; }
+  bool allDrives(DriveState state) const noexcept;
+  /// PDOs whose length is not that of their mapping.
+  std::int64_t badPdos() const noexcept { return bad_pdos_; }
+
+ private:
+  struct Input {
+    PdoField field;
+    std::uint8_t pdo = 0;
+  };
+  void readPdo(int drive, int pdo, const CanFrame& frame) noexcept;
+  void readImu(int pdo, const CanFrame& frame) noexcept;
+  Input findInput(ObjectAddress object) const noexcept;
+  void pushAll(const CanFrame& frame) noexcept;
+
+  BenchConfig config_;
+  std::vector<NodeLink> links_;
+  std::array<Drive, kDriveCount> drives_;
+  std::array<std::uint8_t, kDriveCount> pdos_seen_{};  ///< in this cycle, a bit each
+  std::uint8_t imu_seen_ = 0;
+  int imu_stale_ = 0;
+  std::uint16_t imu_counter_ = 0;
+  std::uint16_t imu_pending_counter_ = 0;
+  std::vector<FrameQueue> outbox_;
+  BenchSample sample_;
+  std::int64_t cycle_ = 0;
+  bool running_ = false;
+  int heartbeat_period_ = 1;
+  std::int64_t bad_pdos_ = 0;
+  Input status_, torque_, position_, velocity_, motor_position_;
+};
+
+}  // namespace ballbot

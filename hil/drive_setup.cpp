@@ -1,0 +1,111 @@
+#include "hil/drive_setup.hpp"
+
+#include <cmath>
+
+#include "hil/canopen_codec.hpp"
+#include "hil/cia402.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr std::int64_t kPdoOff = 0x80000000, kNoRtr = 0x40000000;
+constexpr std::int64_t kOnReception = 255, kEverySync = 1;
+constexpr std::int64_t kServoDrive = 0x00020192;
+
+class Script {
+ public:
+  void write(std::uint16_t index, int sub, int size, std::int64_t value, const char* what) {
+    const ObjectAddress o{index, static_cast<std::uint8_t>(sub)};
+    add({SetupStep::Kind::kWrite, o, o, static_cast<std::uint8_t>(size), value, what});
+  }
+  void require(SetupStep::Kind kind, std::uint16_t index, int sub, std::int64_t value,
+               const char* what) {
+    const ObjectAddress o{index, static_cast<std::uint8_t>(sub)};
+    add({kind, o, o, 0, value, what});
+  }
+  void add(const SetupStep& step) { steps.push_back(step); }
+  std::vector<SetupStep> steps;
+};
+
+/// Switches a PDO off, maps it anew and switches it on again; or leaves it off.
+void setUpPdo(Script& s, bool transmit, int number, int node, const PdoMapping* map,
+              std::int64_t transmission, int deadline_ms) {
+  const auto n = static_cast<std::size_t>(number);
+  const auto parameters = static_cast<std::uint16_t>((transmit ? 0x1800 : 0x1400) + number);
+  const auto mapping = static_cast<std::uint16_t>((transmit ? 0x1A00 : 0x1600) + number);
+  const std::int64_t id =
+      (transmit ? kCobTpdo[n] + kNoRtr : static_cast<std::int64_t>(kCobRpdo[n])) + node;
+  s.write(parameters, 1, 4, id + kPdoOff, "PDO off");
+  if (map == nullptr) return;
+  s.write(mapping, 0, 1, 0, "PDO mapping count");
+  int sub = 0;
+  for (const PdoEntry& entry : map->entries()) {
+    s.write(mapping, ++sub, 4, entry.code(), "PDO mapping");
+  }
+  s.write(mapping, 0, 1, sub, "PDO mapping count");
+  s.write(parameters, 2, 1, transmission, "PDO transmission type");
+  if (!transmit) s.write(parameters, 5, 2, deadline_ms, "RPDO deadline");
+  s.write(parameters, 1, 4, id, "PDO on");
+}
+
+void setUpHeartbeats(Script& s, const BenchConfig& bench) {
+  s.write(0x1017, 0, 2, bench.drive_heartbeat_ms, "heartbeat period");
+  s.write(0x1016, 1, 4,
+          static_cast<std::int64_t>(bench.master_node) << 16 | bench.master_timeout_ms,
+          "watch over the master");
+}
+
+}  // namespace
+
+std::vector<SetupStep> driveSetup(const BenchConfig& bench, const DriveConfig& drive) {
+  using Kind = SetupStep::Kind;
+  const bool torque = bench.mode == DriveMode::kTorque;
+  const std::int8_t mode = torque ? kModeCyclicTorque : kModeCyclicPosition;
+  const DriveScaling& scale = drive.scaling;
+  Script s;
+  s.require(Kind::kExpect, 0x1000, 0, kServoDrive, "device type of a CiA 402 servo drive");
+  s.require(Kind::kExpectBits, 0x6502, 0, supportedModeBit(mode), "supported drive modes");
+  s.require(Kind::kExpect, 0x6076, 0, std::llround(1000 * scale.torque_reference),
+            "rated torque in mNm");
+  s.require(Kind::kExpect, 0x608F, 1, std::llround(scale.encoder_counts), "encoder increments");
+  const std::int64_t limit = std::llround(1000 * drive.limits.torque / scale.torque_reference);
+  s.require(Kind::kAtLeast, 0x6072, 0, limit, "max torque in per mille");
+
+  for (int i = 0; i < 4; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    setUpPdo(s, false, i, drive.node, n < bench.outputs.size() ? &bench.outputs[n] : nullptr,
+             bench.synchronous_outputs ? kEverySync : kOnReception, bench.output_deadline_ms);
+    setUpPdo(s, true, i, drive.node, n < bench.inputs.size() ? &bench.inputs[n] : nullptr,
+             kEverySync, 0);
+  }
+  setUpHeartbeats(s, bench);
+  s.write(0x1029, 1, 1, 0, "behaviour without the master");
+  s.write(0x6007, 0, 2, 1, "abort connection option");
+  s.write(0x605A, 0, 2, 2, "quick stop option");
+  s.write(0x605E, 0, 2, 2, "fault reaction option");
+  s.write(0x6072, 0, 2, limit, "max torque");
+  const std::int64_t ns = bench.cycle.count();
+  if (ns % 100'000 == 0 && ns / 100'000 <= 255) {
+    s.write(0x60C2, 2, 1, -4, "interpolation time index");
+    s.write(0x60C2, 1, 1, ns / 100'000, "interpolation time");
+  }
+  if (!torque) {
+    s.write(0x2010, 1, 4, std::llround(1000 * drive.stiffness), "position loop stiffness");
+    s.write(0x2010, 2, 4, std::llround(1000 * drive.damping), "position loop damping");
+  }
+  s.add({Kind::kWrite, {0x6060, 0}, {0x6061, 0}, 1, mode, "mode of operation"});
+  return s.steps;
+}
+
+std::vector<SetupStep> imuSetup(const BenchConfig& bench) {
+  using Kind = SetupStep::Kind;
+  Script s;
+  s.require(Kind::kExpect, 0x2004, 1, std::llround(1e9 * bench.imu.accel_resolution),
+            "accelerometer resolution in 1e-9 m/s^2");
+  s.require(Kind::kExpect, 0x2004, 2, std::llround(1e9 * bench.imu.gyro_resolution),
+            "gyro resolution in 1e-9 rad/s");
+  setUpHeartbeats(s, bench);
+  return s.steps;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hil/bench_config.hpp"
+#include "hil/sdo_client.hpp"
+
+namespace ballbot {
+
+/// One SDO transfer of a node's set-up, and what must come of it.
+struct SetupStep {
+  enum class Kind {
+    kWrite,       ///< write `value`; read `check` back and compare
+    kExpect,      ///< read; must be `value`
+    kExpectBits,  ///< read; must have these bits
+    kAtLeast,     ///< read; must not be below
+  };
+  Kind kind = Kind::kWrite;
+  ObjectAddress object, check;
+  std::uint8_t size = 4;
+  std::int64_t value = 0;
+  const char* what = "";  ///< for messages: "rated torque"
+};
+
+/// What a drive is asked and told before it may have torque: it is the drive that was configured,
+/// it can do what is needed, its PDOs are remapped (by the rules of CiA 301), its own limits and
+/// its watch over the master are set.
+std::vector<SetupStep> driveSetup(const BenchConfig& bench, const DriveConfig& drive);
+/// The same for the IMU.
+std::vector<SetupStep> imuSetup(const BenchConfig& bench);
+
+}  // namespace ballbot

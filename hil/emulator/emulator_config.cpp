@@ -1,0 +1,107 @@
+#include "hil/emulator/emulator_config.hpp"
+
+#include <fmt/format.h>
+
+#include "core/angle.hpp"
+#include "core/config_reader.hpp"
+#include "core/error.hpp"
+
+namespace ballbot {
+namespace {
+
+FaultOrder readFault(ConfigReader& in) {
+  using F = EmulatedFault;
+  FaultOrder order;
+  order.at_cycle = in.integer("at_cycle", {0, 1e9});
+  order.kind = in.choice<F>("kind", {{"emergency", F::kEmergency},
+                                     {"unannounced_fault", F::kUnannouncedFault},
+                                     {"heartbeat_lost", F::kHeartbeatLost},
+                                     {"pdos_lost", F::kPdosLost},
+                                     {"pdos_truncated", F::kPdosTruncated},
+                                     {"power_loss", F::kPowerLoss},
+                                     {"reboot", F::kReboot},
+                                     {"nmt_stop", F::kNmtStop},
+                                     {"nmt_pre_operational", F::kNmtPreOperational},
+                                     {"local_disable", F::kLocalDisable},
+                                     {"statusword", F::kStatusword},
+                                     {"stuck_encoder", F::kStuckEncoder},
+                                     {"position_jump", F::kPositionJump},
+                                     {"runaway", F::kRunaway},
+                                     {"frozen_bus", F::kFrozenBus},
+                                     {"imu_lost", F::kImuLost},
+                                     {"imu_frozen", F::kImuFrozen},
+                                     {"tilt", F::kTilt},
+                                     {"warning", F::kWarning}});
+  order.drive = in.integerOr("drive", 1, {1, 6}) - 1;
+  order.value = in.numberOr("value", 0);
+  in.finish();
+  return order;
+}
+
+void readDriveValues(ConfigReader& in, EmulatedDriveParameters& p) {
+  p.rated_torque_mNm =
+      in.integerOr("rated_torque_mNm", static_cast<int>(p.rated_torque_mNm), {1, 1e6});
+  p.max_torque_per_mille =
+      in.integerOr("max_torque_per_mille", static_cast<int>(p.max_torque_per_mille), {1, 32767});
+  p.encoder_counts = in.integerOr("encoder_counts", static_cast<int>(p.encoder_counts), {16, 1e8});
+  p.motor_encoder_counts =
+      in.integerOr("motor_encoder_counts", static_cast<int>(p.motor_encoder_counts), {16, 1e8});
+  p.sign = in.numberOr("sign", p.sign, {-1, 1});
+  p.offset = kRadPerDeg * in.numberOr("offset_deg", p.offset / kRadPerDeg, {-3600, 3600});
+}
+
+void readRig(ConfigReader in, EmulatorConfig& c) {
+  c.rig = true;
+  c.rig_bandwidth_Hz = in.numberOr("torque_bandwidth_Hz", c.rig_bandwidth_Hz, {0.1, 150});
+  c.rig_damping_ratio = in.numberOr("damping_ratio", c.rig_damping_ratio, {0.05, 2});
+  c.rig_delay_ms = in.numberOr("delay_ms", c.rig_delay_ms, {0, 50});
+  c.rig_blocked = in.booleanOr("blocked", c.rig_blocked);
+  in.finish();
+}
+
+}  // namespace
+
+EmulatorConfig readEmulatorConfig(const ConfigNode& tree) {
+  EmulatorConfig c;
+  ConfigReader top(tree);
+  c.cycle = top.durationOr("cycle_us", c.cycle, {200, 100'000});
+  c.stepped = top.booleanOr("stepped", false);
+  for (int i = 0; i < 6; ++i) c.drives[static_cast<std::size_t>(i)].node = i + 1;
+  if (!top.has("emulator")) {
+    throw InputError(tree.where().source +
+                     ": has no section 'emulator'; `ballbot drives` needs one");
+  }
+  ConfigReader in = top.child("emulator");
+  for (ConfigReader& bus : in.list("buses")) {
+    c.links.push_back(bus.text("link"));
+    bus.finish();
+  }
+  if (c.links.empty() || c.links.size() > 2)
+    throw InputError(in.at("buses") + "must be one or two");
+  c.bus_count = static_cast<int>(c.links.size());
+  const double last_bus = c.bus_count - 1;
+  if (in.has("imu")) {
+    ConfigReader imu = in.child("imu");
+    c.imu_bus = imu.integerOr("bus", 0, {0, last_bus});
+    c.imu_node = imu.integerOr("node", c.imu_node, {1, 126});
+    c.accel_resolution = imu.numberOr("accel_resolution_m_per_s2", c.accel_resolution, {1e-6, 1});
+    c.gyro_resolution = imu.numberOr("gyro_resolution_rad_per_s", c.gyro_resolution, {1e-7, 1});
+    imu.finish();
+  }
+  std::vector<ConfigReader> drives = in.list("drives");
+  if (!drives.empty() && drives.size() != 6) {
+    throw InputError(in.at("drives") + "must have six entries, or none for six equal drives");
+  }
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    c.drive_bus[i] = drives[i].integerOr("bus", 0, {0, last_bus});
+    c.drives[i].node = drives[i].integerOr("node", static_cast<int>(i) + 1, {1, 126});
+    readDriveValues(drives[i], c.drives[i]);
+    drives[i].finish();
+  }
+  if (in.has("rig")) readRig(in.child("rig"), c);
+  for (ConfigReader& fault : in.list("faults")) c.faults.push_back(readFault(fault));
+  in.finish();
+  return c;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,90 @@
+#include "hil/emulator/joint_rig.hpp"
+
+#include <cmath>
+
+#include "core/angle.hpp"
+#include "core/digest.hpp"
+#include "core/error.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr double kInertia = 0.05, kFriction = 0.2, kSpring = 350;
+constexpr double kLongestStep = 1e-4;  // of the joint's motion [s]
+constexpr std::int64_t kImuPeriod = 2'500'000;
+
+}  // namespace
+
+JointRig::JointRig(const JointRigOptions& options) : options_(options) {}
+
+void JointRig::enterInitializationMode(SimTime start) {
+  *this = JointRig(options_);
+  sensors_.time = sensors_.imu_time = start;
+  sensors_.imu_count = 1;
+  sensors_.accel_B << 0, 0, 9.81;
+}
+
+// Torque by the exact solution for a constant command; the joint by small explicit steps.
+void JointRig::advance(double dt, const JointVector& command) {
+  const double w = kTwoPi * options_.bandwidth_Hz, d = options_.damping_ratio;
+  while (dt > 1e-12) {
+    const double h = std::min(dt, kLongestStep);
+    dt -= h;
+    for (int i = 0; i < kJointCount; ++i) {
+      const double x = torque_[i] - command[i], v = torque_rate_[i], a = d * w;
+      // x'' + 2 a x' + w^2 x = 0; s and c stand for sin/w_d and cos, or sinh and cosh.
+      const double disc = w * w - a * a, wd = std::sqrt(std::abs(disc));
+      const double s = wd * h < 1e-9 ? h
+                       : disc > 0    ? std::sin(wd * h) / wd
+                                     : std::sinh(wd * h) / wd;
+      const double c = disc > 0 ? std::cos(wd * h) : std::cosh(wd * h);
+      const double e = std::exp(-a * h);
+      torque_[i] = command[i] + e * (x * (c + a * s) + v * s);
+      torque_rate_[i] = e * (v * (c - a * s) - x * w * w * s);
+      if (options_.blocked) continue;
+      velocity_[i] += h / kInertia * (torque_[i] - kFriction * velocity_[i]);
+      angle_[i] += h * velocity_[i];
+    }
+  }
+}
+
+void JointRig::doStep(SimTime now, SimDuration step, const ActuatorCommand& c) {
+  const JointVector wanted = c.torque + c.stiffness.cwiseProduct(c.position - angle_) +
+                             c.damping.cwiseProduct(c.velocity - velocity_);
+  double t = toSeconds(now);
+  const double end = toSeconds(now + step);
+  on_the_way_.emplace_back(t + options_.delay_s, wanted);
+  while (!on_the_way_.empty() && on_the_way_.front().first < end - 1e-12) {
+    const double at = std::max(t, on_the_way_.front().first);
+    advance(at - t, acting_);
+    t = at;
+    acting_ = on_the_way_.front().second;
+    on_the_way_.erase(on_the_way_.begin());
+  }
+  advance(end - t, acting_);
+
+  SensorFrame& s = sensors_;
+  s.time = now + step;
+  s.joint_angle = angle_;
+  s.joint_velocity = velocity_;
+  s.joint_torque = torque_;
+  s.motor_angle = angle_ + torque_ / kSpring;
+  const std::int64_t samples = toNs(s.time) / kImuPeriod + 1;
+  if (samples != s.imu_count) s.imu_time = s.time;
+  s.imu_count = samples;
+}
+
+StateBlob JointRig::saveState() const {
+  throw CallOrderError("any", "saveState", "rig: the state of a test rig is not saved");
+}
+void JointRig::restoreState(const StateBlob&) { saveState(); }
+
+std::uint64_t JointRig::stateDigest() const {
+  Digest digest;
+  for (const JointVector* v : {&torque_, &torque_rate_, &angle_, &velocity_, &acting_}) {
+    digest.add(v->data(), sizeof(double) * kJointCount);
+  }
+  return digest.low64();
+}
+
+}  // namespace ballbot

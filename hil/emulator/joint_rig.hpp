@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cosim/participant.hpp"
+
+namespace ballbot {
+
+struct JointRigOptions {
+  double bandwidth_Hz = 40;  ///< natural frequency of the torque response
+  double damping_ratio = 0.7071067811865476;
+  double delay_s = 0;    ///< of commands
+  bool blocked = false;  ///< the joints do not move: a torque test stand
+};
+
+/// Six independent joints in the robot's place: each a torque actuator of second order,
+///
+///   tau'' + 2 D w tau' + w^2 tau = w^2 tau_command(t - delay),  w = 2 pi bandwidth
+///
+/// on an inertia of 0.05 kg m^2 with viscous friction 0.2 N m s/rad, or on a fixed link. Solved in
+/// closed form between commands, so that its response is known exactly. The IMU stands upright.
+class JointRig final : public Participant {
+ public:
+  explicit JointRig(const JointRigOptions& options);
+
+  std::string name() const override { return "rig"; }
+  void enterInitializationMode(SimTime start) override;
+  void exitInitializationMode() override {}
+  void doStep(SimTime now, SimDuration step, const ActuatorCommand& command) override;
+  void terminate() override {}
+  void reset() override { enterInitializationMode(kSimStart); }
+  const SensorFrame& sensors() const override { return sensors_; }
+  std::optional<TruthFrame> truth() const override { return std::nullopt; }
+  /// @throw CallOrderError: a rig has nothing worth saving.
+  StateBlob saveState() const override;
+  void restoreState(const StateBlob& blob) override;
+  std::uint64_t stateDigest() const override;
+
+ private:
+  void advance(double dt, const JointVector& command);
+
+  JointRigOptions options_;
+  SensorFrame sensors_;
+  JointVector torque_ = JointVector::Zero(), torque_rate_ = JointVector::Zero();
+  JointVector angle_ = JointVector::Zero(), velocity_ = JointVector::Zero();
+  std::vector<std::pair<double, JointVector>> on_the_way_;  ///< when they act [s], and what
+  JointVector acting_ = JointVector::Zero();
+};
+
+}  // namespace ballbot

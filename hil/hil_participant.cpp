@@ -1,0 +1,84 @@
+#include "hil/hil_participant.hpp"
+
+#include <cstring>
+
+#include "core/digest.hpp"
+#include "core/error.hpp"
+
+namespace ballbot {
+namespace {
+
+BenchCommand toBench(const ActuatorCommand& c) {
+  BenchCommand out;
+  for (int i = 0; i < kDriveCount; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    out.torque[n] = c.torque[i];
+    out.position[n] = c.position[i];
+    out.velocity[n] = c.velocity[i];
+    out.stiffness[n] = c.stiffness[i];
+    out.damping[n] = c.damping[i];
+  }
+  return out;
+}
+
+[[noreturn]] void refuseState() {
+  throw Error(ExitCode::kBadInput,
+              "hil: the state of real drives can be neither saved nor restored");
+}
+
+}  // namespace
+
+HilParticipant::HilParticipant(BenchRunner& runner)
+    : runner_(runner), period_(runner.bench().config().cycle) {}
+
+void HilParticipant::enterInitializationMode(SimTime start) {
+  runner_.engage();
+  start_ = start;
+  cycle_ = 0;
+  digest_ = 0;
+  const BenchSample& sample = runner_.sample(0);
+  first_imu_count_ = sample.imu_count;
+  first_master_cycle_ = sample.imu_cycle;
+  adopt(sample, 0);
+}
+
+void HilParticipant::doStep(SimTime now, SimDuration step, const ActuatorCommand& command) {
+  runner_.command((now - start_) / period_, toBench(command));
+  const std::int64_t reached = (now + step - start_) / period_;
+  while (cycle_ < reached) {
+    const BenchSample& sample = runner_.sample(++cycle_);
+    adopt(sample, cycle_);
+  }
+}
+
+void HilParticipant::adopt(const BenchSample& s, std::int64_t cycle) {
+  SensorFrame& f = sensors_;
+  f.time = start_ + cycle * period_;
+  for (int i = 0; i < kDriveCount; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    f.motor_angle[i] = s.motor_angle[n];
+    f.joint_angle[i] = s.joint_angle[n];
+    f.joint_velocity[i] = s.joint_velocity[n];
+    f.joint_torque[i] = s.joint_torque[n];
+  }
+  f.imu_count = s.imu_count - first_imu_count_ + 1;
+  f.imu_time = start_ + (s.imu_cycle - first_master_cycle_) * period_;
+  for (int i = 0; i < 3; ++i) {
+    f.accel_B[i] = s.accel[static_cast<std::size_t>(i)];
+    f.gyro_WB_B[i] = s.gyro[static_cast<std::size_t>(i)];
+  }
+  Digest digest;
+  digest.add(static_cast<std::int64_t>(digest_));
+  digest.add(cycle);
+  for (const DriveArray* a : {&s.joint_angle, &s.motor_angle, &s.joint_velocity, &s.joint_torque}) {
+    digest.add(a->data(), sizeof *a);
+  }
+  digest.add(s.accel.data(), sizeof s.accel);
+  digest.add(s.gyro.data(), sizeof s.gyro);
+  digest_ = digest.low64();
+}
+
+StateBlob HilParticipant::saveState() const { refuseState(); }
+void HilParticipant::restoreState(const StateBlob&) { refuseState(); }
+
+}  // namespace ballbot

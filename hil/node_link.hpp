@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hil/canopen_codec.hpp"
+#include "hil/drive_setup.hpp"
+#include "hil/frame_queue.hpp"
+#include "hil/sdo_client.hpp"
+
+namespace ballbot {
+
+/// What a node did that it should not have.
+enum class NodeTrouble : std::uint8_t {
+  kNone,
+  kNoBootUp,      ///< silent after the reset
+  kSetupRefused,  ///< an SDO was aborted, timed out or read back another value
+  kReboot,        ///< a boot-up message while it was in use
+  kLeftOperational,
+  kHeartbeatLost,
+  kEmergency,
+};
+
+/// The master's end of one node: boot-up, set-up by SDO with read-back, network state, heartbeat,
+/// emergencies. No clock: cycles are counted by whoever owns it.
+class NodeLink {
+ public:
+  enum class Phase : std::uint8_t { kIdle, kBooting, kConfiguring, kConfigured, kRunning };
+
+  NodeLink(int node, std::vector<SetupStep> setup, int sdo_timeout_cycles, int heartbeat_cycles);
+
+  /// The node was just reset by NMT; it must boot within `patience_cycles`.
+  void expectBootUp(int patience_cycles) noexcept;
+  /// The node was just started by NMT.
+  void start() noexcept;
+  /// True if the frame was this node's (and is not a PDO).
+  bool onFrame(const CanFrame& frame, FrameQueue& out) noexcept;
+  void onCycle(FrameQueue& out) noexcept;
+
+  int node() const noexcept { return node_; }
+  Phase phase() const noexcept { return phase_; }
+  NodeTrouble trouble() const noexcept { return trouble_; }
+  const Emergency& emergency() const noexcept { return emergency_; }
+  /// Which answer is outstanding within a cycle.
+  bool awaitsAnswer() const noexcept;
+  /// Set-up trouble in words: "6076:00 rated torque in mNm is 5000, configured 20000".
+  std::string troubleText() const;
+
+ private:
+  void nextStep(FrameQueue& out) noexcept;
+  void onTransfer(FrameQueue& out) noexcept;
+  void fail(NodeTrouble trouble) noexcept;
+
+  int node_;
+  std::vector<SetupStep> setup_;
+  SdoClient sdo_;
+  int heartbeat_cycles_;
+  Phase phase_ = Phase::kIdle;
+  NodeTrouble trouble_ = NodeTrouble::kNone;
+  std::size_t step_ = 0;
+  bool reading_ = false;
+  std::int64_t found_ = 0;
+  int waited_ = 0, patience_ = 0;
+  bool seen_operational_ = false;
+  NmtState nmt_state_ = NmtState::kBootUp;
+  Emergency emergency_{};
+};
+
+}  // namespace ballbot

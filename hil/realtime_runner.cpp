@@ -1,0 +1,176 @@
+#include "hil/realtime_runner.hpp"
+
+#include <cerrno>
+#include <ctime>
+#include <utility>
+
+#include "core/error.hpp"
+#include "hil/bring_up.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr std::size_t kCommands = 64, kSamples = 1024, kRecords = 8192;
+constexpr std::int64_t kLeadNs = 5'000'000;  // from starting the thread to its first deadline
+constexpr int kRestPatienceMs = 5000;
+constexpr long kNewsTimeoutNs = 20'000'000;
+
+}  // namespace
+
+RealtimeRunner::RealtimeRunner(const BenchConfig& config, std::vector<CanBus*> buses)
+    : bench_(config),
+      io_(bench_.master(), std::move(buses)),
+      commands_(kCommands),
+      samples_(kSamples),
+      records_(kRecords) {
+  ::sem_init(&news_, 0, 0);
+}
+
+RealtimeRunner::~RealtimeRunner() {
+  finish();
+  ::sem_destroy(&news_);
+}
+
+void RealtimeRunner::finish() noexcept {
+  release();
+  running_ = false;
+  if (thread_.joinable()) thread_.join();
+}
+
+// False after a while without news, so that the caller looks at the state anyway.
+bool RealtimeRunner::waitForNews() noexcept {
+  timespec until{};
+  ::clock_gettime(CLOCK_REALTIME, &until);
+  until.tv_nsec += kNewsTimeoutNs;
+  if (until.tv_nsec >= 1'000'000'000) {
+    until.tv_nsec -= 1'000'000'000;
+    ++until.tv_sec;
+  }
+  return ::sem_timedwait(&news_, &until) == 0;
+}
+
+void RealtimeRunner::throwIfFault() {
+  if (state_.load(std::memory_order_acquire) != SafetyState::kFault) return;
+  throw LostParticipantError("bench", "bench: stopped: " + bench_.faultText());
+}
+
+void RealtimeRunner::engage() {
+  throwIfFault();
+  if (!running_) {
+    bringUp(bench_, io_, std::chrono::nanoseconds(0));
+    running_ = true;
+    thread_ = std::thread([this] { loop(); });
+  }
+  while (samples_.pop(last_)) {  // of an earlier session
+  }
+  want_stop_ = false;
+  want_torque_ = true;
+  const std::int64_t begun = monotonicNs();
+  for (;;) {
+    waitForNews();
+    throwIfFault();
+    if (samples_.pop(last_)) return;
+    if (monotonicNs() - begun > kRestPatienceMs * 1'000'000LL) {
+      release();
+      throw LostParticipantError(
+          "bench", engage_refused_ ? "bench: the robot does not come to rest; not engaged"
+                                   : "bench: the drives do not become enabled; not engaged");
+    }
+  }
+}
+
+void RealtimeRunner::command(std::int64_t, const BenchCommand& command) {
+  commands_.push(command);  // full: the loop is far behind, and older commands are as good
+}
+
+const BenchSample& RealtimeRunner::sample(std::int64_t cycle) {
+  while (last_.cycle < cycle) {
+    if (samples_.pop(last_)) continue;
+    throwIfFault();
+    waitForNews();
+  }
+  throwIfFault();
+  return last_.sample;
+}
+
+void RealtimeRunner::release() noexcept {
+  if (!running_) return;
+  want_torque_ = false;
+  want_stop_ = true;
+  const int longest = bench_.config().safety.damping_cycles + 40;
+  const std::int64_t until = monotonicNs() + longest * bench_.config().cycle.count();
+  while (monotonicNs() < until) {
+    const SafetyState state = state_;
+    if (state == SafetyState::kDisabled) break;
+    waitForNews();
+  }
+}
+
+void RealtimeRunner::takeCommands() noexcept {
+  bool fresh = false;
+  while (commands_.pop(command_)) fresh = true;
+  const bool following = bench_.safety().action() == SafetyAction::kFollow;
+  if (fresh) wishes_.command = &command_;
+  wishes_.command_age = fresh || !following ? 0 : wishes_.command_age + 1;
+  if (!fresh && following) ++statistics_.commands_missing;
+}
+
+void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
+  const BenchConfig& config = bench_.config();
+  const std::int64_t woke = monotonicNs();
+  BenchMaster& master = bench_.master();
+  master.beginCycle();
+  io_.send();
+  // steady_clock is CLOCK_MONOTONIC in this library.
+  io_.collect(std::chrono::steady_clock::time_point(std::chrono::nanoseconds(deadline_ns) +
+                                                    config.realtime.collect));
+  master.endCycle();
+  bench_.observe();
+
+  const bool torque = bench_.safety().state() == SafetyState::kEnabled;
+  if (!torque) session_cycle_ = -1;
+  if (torque && (session_cycle_ >= 0 || master.allDrives(DriveState::kOperationEnabled))) {
+    session_cycle_ += 1 + (session_cycle_ >= 0 ? skipped_now_ : 0);
+    samples_.push({session_cycle_, master.sample()});
+    ::sem_post(&news_);
+  }
+
+  sleepUntilNs(deadline_ns + config.realtime.act.count());
+  takeCommands();
+  wishes_.prepare = true;
+  wishes_.engage = want_torque_;
+  wishes_.stop = want_stop_;
+  wishes_.bus_down = !io_.allUp();
+  wishes_.skipped_cycles = skipped_now_;
+  if (!torque) wishes_.command = nullptr;  // commands that come too early are refused
+  bench_.actuate(wishes_);
+  io_.send();
+  const std::int64_t acted = monotonicNs();
+
+  statistics_.wake.add(woke - deadline_ns);
+  statistics_.act.add(acted - deadline_ns);
+  ++statistics_.cycles;
+  CycleRecord record = bench_.record();
+  record.wake_late_ns = static_cast<std::int32_t>(woke - deadline_ns);
+  record.act_late_ns = static_cast<std::int32_t>(acted - deadline_ns - config.realtime.act.count());
+  if (!records_.push(record)) ++statistics_.records_lost;
+  engage_refused_ = bench_.safety().engageRefused();
+  if (state_.exchange(bench_.safety().state(), std::memory_order_release) !=
+      bench_.safety().state()) {
+    ::sem_post(&news_);
+  }
+}
+
+void RealtimeRunner::loop() noexcept {
+  statistics_.grant = becomeRealtime(bench_.config().realtime.priority);
+  DeadlineSchedule schedule(monotonicNs() + kLeadNs, bench_.config().cycle.count());
+  while (running_) {
+    sleepUntilNs(schedule.deadline());
+    cycle(schedule.deadline());
+    skipped_now_ = static_cast<int>(schedule.advance(monotonicNs()));
+  }
+  statistics_.overruns = schedule.overruns();
+  statistics_.skipped = schedule.skipped();
+}
+
+}  // namespace ballbot
