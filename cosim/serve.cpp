@@ -17,6 +17,7 @@ using std::chrono::milliseconds;
 
 // A signal may come just before poll() begins; so often its flag is looked at anyway.
 constexpr milliseconds kStopInterval{200};
+constexpr milliseconds kProbeInterval{50};
 
 /// A StepServer with a clock and a transport around it.
 class Host {
@@ -129,15 +130,20 @@ std::optional<std::string> whoServes(Transport& master_end, WallDuration wait) {
   probe.header.session = static_cast<std::int64_t>(drawSessionId());
   probe.header.sequence = 1;
   probe.header.kind = ballbot_msgs::step_header::PROBE;
-  Bytes bytes;
-  encodeMessage(probe, bytes);
-  master_end.send(bytes.data(), bytes.size());
+  Bytes question, answer;
+  encodeMessage(probe, question);
 
+  // One question alone may be lost, or come while the other is busy starting.
   const WallClock::time_point until = WallClock::now() + wait;
+  WallClock::time_point ask_again = WallClock::now();
   ballbot_msgs::step_reply reply{};
-  for (WallDuration left = wait; left > WallDuration{}; left = until - WallClock::now()) {
-    if (!master_end.receive(bytes, left)) break;
-    if (!decodeMessage(bytes.data(), bytes.size(), reply)) continue;
+  for (WallClock::time_point now = ask_again; now < until; now = WallClock::now()) {
+    if (now >= ask_again) {
+      master_end.send(question.data(), question.size());
+      ask_again = now + kProbeInterval;
+    }
+    if (!master_end.receive(answer, std::min(ask_again, until) - now)) continue;
+    if (!decodeMessage(answer.data(), answer.size(), reply)) continue;
     if (reply.header.session == probe.header.session) return reply.text;
   }
   return std::nullopt;

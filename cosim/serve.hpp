@@ -46,9 +46,10 @@ struct ServeReport {
 ServeReport serve(Participant& participant, Transport& transport, const ServeOptions& options);
 
 /// Asks, over the master's end of a link, whether somebody serves at the other; their name, or
-/// nothing after `wait`. Call it before serving on an address that others may know:
+/// nothing after `wait`; asks again while it waits. Call it before serving on an address that
+/// others may know:
 ///     if (auto who = whoServes(master_end)) throw InputError("... is used by " + *who)
 std::optional<std::string> whoServes(Transport& master_end,
-                                     WallDuration wait = std::chrono::milliseconds{150});
+                                     WallDuration wait = std::chrono::milliseconds{500});
 
 }  // namespace ballbot

@@ -6,7 +6,6 @@
 
 #include "core/config_reader.hpp"
 #include "cosim/recorder.hpp"
-#include "cosim/serve.hpp"
 #include "cosim/step_master.hpp"
 #include "experiment/ee_reference.hpp"
 #include "experiment/estimate_log.hpp"
@@ -30,7 +29,8 @@ namespace {
 using WallTime = std::chrono::steady_clock;
 
 std::int64_t wallNs() noexcept {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(WallTime::now().time_since_epoch()).count();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(WallTime::now().time_since_epoch())
+      .count();
 }
 
 RecorderOptions readRecorderOptions(const Scenario& scenario, const std::string& log_path) {
@@ -60,15 +60,17 @@ std::vector<std::string> knownMetrics(const RobotController& controller) {
 
 std::vector<PushMetrics::Interval> pushIntervals(const Scenario& scenario) {
   std::vector<PushMetrics::Interval> out;
-  for (const Push& push : scheduledPushes(scenario.tree)) out.push_back({push.start, push.end(), push.force_W.head<2>()});
+  for (const Push& push : scheduledPushes(scenario.tree))
+    out.push_back({push.start, push.end(), push.force_W.head<2>()});
   return out;
 }
 
-/// Whether the requirements ask for a fall (`fell: {above: 0}`): an experiment that is to show that a
-/// controller fails. Only then may a run that fell pass.
+/// Whether the requirements ask for a fall (`fell: {above: 0}`): an experiment that is to show that
+/// a controller fails. Only then may a run that fell pass.
 bool askForFall(const std::vector<MetricLimit>& requirements) {
-  return std::any_of(requirements.begin(), requirements.end(),
-                     [](const MetricLimit& r) { return r.metric == "fell" && r.above && *r.above >= 0; });
+  return std::any_of(requirements.begin(), requirements.end(), [](const MetricLimit& r) {
+    return r.metric == "fell" && r.above && *r.above >= 0;
+  });
 }
 
 /// Saves, kills the plant, starts another and continues, between two events.
@@ -81,7 +83,8 @@ void replacePlant(StepMaster& master, PlantLink& plant) {
 
 }  // namespace
 
-RunResult runExperiment(const Scenario& scenario, const std::string& out, const RunOptions& options) {
+RunResult runExperiment(const Scenario& scenario, const std::string& out,
+                        const RunOptions& options) {
   // Everything that can be wrong with the scenario is said before anything is started.
   EventCalendar calendar(scenario.rates.base_step);
   RobotController controller(scenario, calendar);
@@ -107,7 +110,8 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   link.stop = options.stop;
   PlantLink plant(scenario, folder, link);
 
-  const auto planned_plans = static_cast<std::size_t>(scenario.duration / scenario.rates.planner) + 1;
+  const auto planned_plans =
+      static_cast<std::size_t>(scenario.duration / scenario.rates.planner) + 1;
   controller.timePlans(wallNs, planned_plans);
   Recorder recorder(readRecorderOptions(scenario, folder.logFile()));
   ConfigReader robot_in(scenario.section("robot"), "robot");
@@ -179,10 +183,8 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out, const 
   return result;
 }
 
-void servePlant(const Scenario& scenario, const std::string& lcm_url, const std::string& channel,
-                const std::atomic<bool>* stop, bool keep_serving) {
+void servePlant(const Scenario& scenario, const LcmAddress& address, ServeOptions options) {
   const std::unique_ptr<Participant> plant = makePlant(scenario);
-  const LcmAddress address{lcm_url, channel};
   {
     LcmTransport master_end(address, LinkEnd::kMaster);
     if (const auto who = whoServes(master_end)) {
@@ -191,10 +193,7 @@ void servePlant(const Scenario& scenario, const std::string& lcm_url, const std:
     }
   }
   LcmTransport transport(address, LinkEnd::kParticipant);
-  ServeOptions options;
   options.config_digest = configDigest64(scenario);
-  options.stop = stop;
-  options.keep_serving = keep_serving;
   serve(*plant, transport, options);
 }
 

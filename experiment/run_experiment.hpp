@@ -9,6 +9,8 @@
 
 #include "core/error.hpp"
 #include "core/time.hpp"
+#include "cosim/lcm_transport.hpp"
+#include "cosim/serve.hpp"
 #include "experiment/run_folder.hpp"
 #include "experiment/scenario.hpp"
 #include "experiment/verdict.hpp"
@@ -57,11 +59,12 @@ struct RunResult {
 /// Runs a scenario and leaves everything about it in a run folder, which is made at `out` (see
 /// RunFolder::create) once the whole scenario has been found good.
 /// @throw Error of the kind that tells the caller's exit code; what was logged stays readable.
-RunResult runExperiment(const Scenario& scenario, const std::string& out, const RunOptions& options);
+RunResult runExperiment(const Scenario& scenario, const std::string& out,
+                        const RunOptions& options);
 
 /// The plant of a scenario at the far end of the step protocol, until the master says bye.
 /// @throw InputError, LostParticipantError
-void servePlant(const Scenario& scenario, const std::string& lcm_url, const std::string& channel,
-                const std::atomic<bool>* stop, bool keep_serving);
+/// @param options  its config_digest is set here, from the scenario
+void servePlant(const Scenario& scenario, const LcmAddress& address, ServeOptions options);
 
 }  // namespace ballbot

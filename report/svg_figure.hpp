@@ -8,7 +8,7 @@ namespace ballbot {
 /// One line of an SVG figure. Values that are not finite break it.
 struct SvgSeries {
   std::string name;
-  int colour = 0;       ///< 0 to 5
+  int colour = 0;  ///< 0 to 5
   bool dashed = false;
   std::vector<double> x, y;
 };
@@ -26,11 +26,11 @@ struct SvgSpan {
 
 /// One pair of axes.
 struct SvgAxes {
-  std::string x_label, y_label;  ///< with units, e.g. "frequency [Hz]"
+  std::string x_label, y_label;       ///< with units, e.g. "frequency [Hz]"
   bool log_x = false, log_y = false;  ///< values that are not positive are gaps there
-  std::vector<SvgSeries> series;
-  std::vector<SvgMark> at_x, at_y;
-  std::vector<SvgSpan> shaded;
+  std::vector<SvgSeries> series = {};
+  std::vector<SvgMark> at_x = {}, at_y = {};
+  std::vector<SvgSpan> shaded = {};
 };
 
 /// A figure that stands alone: axes under each other, legends beside them, nothing fetched from

@@ -93,7 +93,7 @@ TEST(RemoteParticipant, NamesWhoIsSilentAndWhatToTry) {
   } catch (const LostParticipantError& error) {
     EXPECT_EQ(error.participant(), "plant");
     EXPECT_THAT(error.what(), testing::MatchesRegex(
-                                  "no reply from 'plant' within 3[0-9][0-9] ms \\([0-9]+ tries of "
+                                  "no reply from 'plant' within [0-9]+ ms \\([0-9]+ tries of "
                                   "request 1\\), on memory of this process. Is it running, and on "
                                   "the same LCM URL\\? Try: ballbot doctor"));
   }
@@ -260,6 +260,28 @@ TEST(Serve, WhoServesIsAnsweredWithTheName) {
   served.stop = true;
   auto [lonely, nobody] = makeMemoryLink();
   EXPECT_EQ(whoServes(*lonely, milliseconds{20}), std::nullopt);
+}
+
+/// Loses the first message that is sent.
+class LossyTransport final : public Transport {
+ public:
+  explicit LossyTransport(Transport& inner) : inner_(inner) {}
+  void send(const std::uint8_t* data, std::size_t size) override {
+    if (++sent_ > 1) inner_.send(data, size);
+  }
+  bool receive(Bytes& out, WallDuration timeout) override { return inner_.receive(out, timeout); }
+  std::string describe() const override { return inner_.describe(); }
+
+ private:
+  Transport& inner_;
+  int sent_ = 0;
+};
+
+TEST(Serve, WhoServesAsksAgainWhenTheQuestionIsLost) {
+  ServedSpring served;
+  LossyTransport lossy(*served.master_end);
+  EXPECT_EQ(whoServes(lossy, std::chrono::seconds{20}), "spring");
+  served.stop = true;
 }
 
 TEST(RetransmissionTimer, FollowsTheRoundTripAndBacksOff) {

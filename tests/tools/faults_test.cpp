@@ -1,11 +1,10 @@
-#include <signal.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <signal.h>
+#include <unistd.h>
 
 #include "tests/tools/program.hpp"
 
@@ -30,7 +29,9 @@ std::vector<std::string> longRun(const std::string& out) {
   return {"run", scenarioPath("balance"), "--set", "duration_s=1000", "--quiet", "--out", out};
 }
 
-bool logHasGrown(const std::string& folder) { return readFile(folder + "/run.lcmlog").size() > 100'000; }
+bool logHasGrown(const std::string& folder) {
+  return readFile(folder + "/run.lcmlog").size() > 100'000;
+}
 
 void expectReadableLog(const std::string& run, const TemporaryFolder& folder) {
   const Finished exported = runBallbot({"export", run, "--csv", folder / "csv", "--json"});
@@ -85,8 +86,8 @@ TEST(Faults, AFullDiskIsSaidAndWhatWasLoggedStaysReadable) {
 
 TEST(Faults, NobodyAtTheOtherEndIsSaidWithWhatToTry) {
   const TemporaryFolder folder;
-  const Finished end = runBallbot({"controller", scenarioPath("balance"), "--quiet", "--out", folder / "run",
-                                   "--patience-s", "0.5", "--channel", "NOBODY"});
+  const Finished end = runBallbot({"controller", scenarioPath("balance"), "--quiet", "--out",
+                                   folder / "run", "--patience-s", "0.5", "--channel", "NOBODY"});
   EXPECT_EQ(end.exit_code, 3);
   EXPECT_THAT(end.err, HasSubstr("no reply from 'plant'"));
   EXPECT_THAT(end.err, HasSubstr("ballbot doctor"));
@@ -95,9 +96,8 @@ TEST(Faults, NobodyAtTheOtherEndIsSaidWithWhatToTry) {
 TEST(Faults, ASecondPlantOnTheSameChannelIsRefused) {
   const std::string channel = "TWICE" + std::to_string(::getpid());
   Program first({"plant", scenarioPath("balance"), "--channel", channel});
-  // The first needs a moment until it listens; before that a second would be the first.
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-  const Finished second = runBallbot({"plant", scenarioPath("balance"), "--channel", channel}, 10);
+  ASSERT_TRUE(eventually([&] { return first.errSoFar().find("waiting on") != std::string::npos; }));
+  const Finished second = runBallbot({"plant", scenarioPath("balance"), "--channel", channel}, 60);
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_THAT(second.err, HasSubstr("already serves"));
   first.signal(SIGTERM);
@@ -108,8 +108,8 @@ TEST(Faults, APlantOfAnotherScenarioIsRefusedInWords) {
   const TemporaryFolder folder;
   const std::string channel = "OTHER" + std::to_string(::getpid());
   Program plant({"plant", scenarioPath("push"), "--channel", channel});
-  const Finished end = runBallbot(
-      {"controller", scenarioPath("balance"), "--quiet", "--out", folder / "run", "--channel", channel});
+  const Finished end = runBallbot({"controller", scenarioPath("balance"), "--quiet", "--out",
+                                   folder / "run", "--channel", channel});
   EXPECT_EQ(end.exit_code, 2);
   EXPECT_THAT(end.err, HasSubstr("configuration"));
   plant.signal(SIGTERM);

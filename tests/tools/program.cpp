@@ -1,11 +1,5 @@
 #include "tests/tools/program.hpp"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <chrono>
 #include <filesystem>
@@ -13,7 +7,12 @@
 #include <sstream>
 #include <thread>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace ballbot {
 
@@ -82,6 +81,8 @@ Finished Program::finish(int timeout_s) {
           readFile(err_path_)};
 }
 
+std::string Program::errSoFar() const { return readFile(err_path_); }
+
 std::vector<pid_t> Program::children() const {
   const std::string pid = std::to_string(pid_);
   std::vector<pid_t> out;
@@ -94,7 +95,9 @@ Finished runBallbot(const std::vector<std::string>& arguments, int timeout_s) {
   return Program(arguments).finish(timeout_s);
 }
 
-TemporaryFolder::TemporaryFolder() : path_(uniquePath("ballbot_test")) { fs::create_directories(path_); }
+TemporaryFolder::TemporaryFolder() : path_(uniquePath("ballbot_test")) {
+  fs::create_directories(path_);
+}
 TemporaryFolder::~TemporaryFolder() { fs::remove_all(path_); }
 
 std::string scenarioPath(const std::string& name) {

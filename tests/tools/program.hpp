@@ -1,9 +1,9 @@
 #pragma once
 
-#include <sys/types.h>
-
 #include <string>
 #include <vector>
+
+#include <sys/types.h>
 
 namespace ballbot {
 
@@ -25,6 +25,8 @@ class Program {
   void signal(int number) const;
   /// Waits for the end; fails the test and kills it after `timeout_s`.
   Finished finish(int timeout_s = 300);
+  /// What it has said on stderr so far.
+  std::string errSoFar() const;
   /// Process ids of its children.
   std::vector<pid_t> children() const;
 
@@ -46,7 +48,8 @@ class TemporaryFolder {
   std::string path_;
 };
 
-std::string scenarioPath(const std::string& name);  ///< "balance" -> .../configs/scenarios/balance.yaml
+std::string scenarioPath(
+    const std::string& name);  ///< "balance" -> .../configs/scenarios/balance.yaml
 std::string readFile(const std::string& path);
 
 }  // namespace ballbot
