@@ -1,7 +1,6 @@
 #include "controller/background_mpc_law.hpp"
 
 #include <cerrno>
-#include <cmath>
 #include <utility>
 
 #include "core/error.hpp"
@@ -9,9 +8,7 @@
 namespace ballbot {
 
 BackgroundMpcLaw::BackgroundMpcLaw(const RobotParameters& robot, const MpcConfig& config)
-    : fallback_after_(config.fallback_after),
-      shaping_(config.shaping),
-      lqr_(robot, config.lqr),
+    : execution_(robot, config),
       planner_(robot, config),
       requests_(Request{}),
       results_(Result{planner_.emptyPolicy(), PlanReport{}}) {
@@ -44,48 +41,34 @@ void BackgroundMpcLaw::solveForever() {
   }
 }
 
-bool BackgroundMpcLaw::inForce(SimTime now) const noexcept {
-  const MpcPolicy& policy = results_.front().policy;
-  return policy.valid() && now - policy.stamp() <= fallback_after_;
-}
-
 PlanReport BackgroundMpcLaw::plan(SimTime now, const StateVector& x,
                                   const JointVector& joint_angle) noexcept {
-  const bool had_plan = results_.front().policy.valid();
-  if (x.allFinite() && (inForce(now) || !had_plan)) {
-    lqr_.setGroundSetPoint(x.segment<2>(kBallX), x[kYaw]);
-  }
+  const MpcPolicy& active = results_.front().policy;
   Request& request = requests_.back();
-  lqr_.plan(now, x, joint_angle);
-  lqr_.samplePlan(now, request.stand_in);
+  request.stand_in = execution_.planStandIn(active, now, x, joint_angle);
   request.now = now;
   request.x = x;
-  request.xf = xf_;
+  request.xf = execution_.filterState();
   request.joint_angle = joint_angle;
   request.contact_force_W = contact_force_W_;
   requests_.publish();
   sem_post(&wake_);
   PlanReport report = results_.front().report;
-  report.fallback = had_plan && !inForce(now);
+  report.fallback = execution_.fellBack(active, now);
   return report;
 }
 
 void BackgroundMpcLaw::activatePlan() noexcept {
   results_.update();
-  lqr_.activatePlan();
+  execution_.activateStandIn();
 }
 
 void BackgroundMpcLaw::sample(SimTime now, PolicySample& out) const noexcept {
-  if (inForce(now)) {
-    results_.front().policy.sample(now, xf_, out);
-  } else {
-    lqr_.sample(now, out);
-  }
+  execution_.sample(results_.front().policy, now, out);
 }
 
 void BackgroundMpcLaw::commanded(SimTime, SimDuration period, const JointVector& torque) noexcept {
-  const double a = std::exp(-shaping_.pole * toSeconds(period));
-  xf_ = a * xf_ + (1 - a) * torque.head<kWheelCount>();
+  execution_.commanded(period, torque);
 }
 
 StateBlob BackgroundMpcLaw::saveState() const {

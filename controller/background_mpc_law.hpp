@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "controller/latest_value.hpp"
+#include "controller/mpc_execution.hpp"
 #include "controller/mpc_planner.hpp"
 
 namespace ballbot {
@@ -22,6 +23,8 @@ class BackgroundMpcLaw final : public ControlLaw {
   PlanReport plan(SimTime now, const StateVector& x,
                   const JointVector& joint_angle) noexcept override;
   void setContactForce(const Vector3& force_W) noexcept override { contact_force_W_ = force_W; }
+  /// Before the first plan(): then the planner is the solver thread's.
+  void setClock(PhaseClock clock) noexcept override { planner_.setClock(clock); }
   void activatePlan() noexcept override;
   void sample(SimTime now, PolicySample& out) const noexcept override;
   void commanded(SimTime now, SimDuration period, const JointVector& torque) noexcept override;
@@ -47,12 +50,8 @@ class BackgroundMpcLaw final : public ControlLaw {
     PlanReport report;
   };
   void solveForever();
-  bool inForce(SimTime now) const noexcept;
 
-  SimDuration fallback_after_;
-  FrequencyShaping shaping_;
-  LqrLaw lqr_;
-  Vector3 xf_ = Vector3::Zero();
+  MpcExecution execution_;
   Vector3 contact_force_W_ = Vector3::Zero();
 
   MpcPlanner planner_;  // the solver thread's alone

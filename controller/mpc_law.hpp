@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "controller/mpc_execution.hpp"
 #include "controller/mpc_planner.hpp"
 
 namespace ballbot {
@@ -30,14 +31,9 @@ class MpcLaw final : public ControlLaw {
   std::int64_t failedPlans() const { return failed_plans_; }
 
  private:
-  bool inForce(SimTime now) const noexcept;
-
-  SimDuration fallback_after_;
-  FrequencyShaping shaping_;
-  LqrLaw lqr_;
+  MpcExecution execution_;
   MpcPlanner planner_;
   MpcPolicy planned_, active_, scratch_;
-  Vector3 xf_ = Vector3::Zero();  ///< shaping filter, driven by the commanded torques [N m]
   std::int64_t failed_plans_ = 0;
 };
 
