@@ -5,9 +5,13 @@
 
 namespace ballbot {
 
+RobotParameters scenarioRobot(const Scenario& scenario) {
+  ConfigReader in(scenario.section("robot"), "robot");
+  return readRobot(in);
+}
+
 RobotParameters believedRobot(const Scenario& scenario) {
-  ConfigReader robot_in(scenario.section("robot"), "robot");
-  RobotParameters robot = readRobot(robot_in);
+  RobotParameters robot = scenarioRobot(scenario);
   ConfigReader in(scenario.section("controller"), "controller");
   robot.payload_mass = in.numberOr("known_payload_kg", robot.payload_mass, {0, 5});
   return robot;

@@ -5,24 +5,18 @@
 #include <nlohmann/json.hpp>
 
 #include "core/angle.hpp"
-#include "core/config_reader.hpp"
+#include "experiment/believed_robot.hpp"
 #include "experiment/contact_report.hpp"
 #include "experiment/run_replay.hpp"
 #include "experiment/text_file.hpp"
 #include "metrics/balance_metrics.hpp"
 #include "model/frames.hpp"
 #include "model/omniwheel_kinematics.hpp"
-#include "model/robot_reader.hpp"
 
 namespace ballbot {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-RobotParameters robotOf(const Scenario& scenario) {
-  ConfigReader in(scenario.section("robot"), "robot");
-  return readRobot(in);
-}
 
 ReportReplay replayOf(const ballbot_msgs::truth_frame& truth, const RobotParameters& robot,
                       const std::vector<Push>& pushes, const EeReference& reference,
@@ -50,7 +44,7 @@ const char* nameOf(SeriesStyle style) {
 
 LiveScene::LiveScene(const Scenario& scenario)
     : scenario_(scenario),
-      robot_(robotOf(scenario)),
+      robot_(scenarioRobot(scenario)),
       reference_(readEeReference(scenario)),
       pushes_(scheduledPushes(scenario.tree)),
       surroundings_(surroundingsOf(scenario.tree)) {}

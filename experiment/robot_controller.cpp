@@ -8,7 +8,6 @@
 #include "core/config_reader.hpp"
 #include "experiment/believed_robot.hpp"
 #include "experiment/rejection_metrics.hpp"
-#include "model/robot_reader.hpp"
 
 namespace ballbot {
 
@@ -17,8 +16,7 @@ RobotController::RobotController(const Scenario& scenario, EventCalendar& calend
       tracker_period_(scenario.rates.tracker),
       plan_latency_(scenario.rates.plan_latency),
       sensing_(scenario) {
-  ConfigReader robot_in(scenario.section("robot"), "robot");
-  const RobotParameters robot = readRobot(robot_in);
+  const RobotParameters robot = scenarioRobot(scenario);
 
   ConfigReader in(scenario.section("controller"), "controller");
   in.raw("known_payload_kg");  // read by believedRobot()

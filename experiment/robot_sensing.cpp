@@ -4,7 +4,6 @@
 #include "estimator/estimator_factory.hpp"
 #include "experiment/believed_robot.hpp"
 #include "messages/convert.hpp"
-#include "model/robot_reader.hpp"
 
 namespace ballbot {
 namespace {
@@ -12,17 +11,12 @@ namespace {
 /// Of the contact force observer: slower than the arm's rate noise, faster than a slip [rad/s].
 constexpr double kContactForceBandwidth = 25;
 
-RobotParameters robotOf(const Scenario& scenario) {
-  ConfigReader in(scenario.section("robot"), "robot");
-  return readRobot(in);
-}
-
 }  // namespace
 
 RobotSensing::RobotSensing(const Scenario& scenario)
     : release_(scenario.release), contact_force_(believedRobot(scenario), kContactForceBandwidth) {
   ConfigReader in(scenario.section("estimator"), "estimator");
-  estimator_ = makeEstimator(in, robotOf(scenario));
+  estimator_ = makeEstimator(in, scenarioRobot(scenario));
 }
 
 void RobotSensing::update(const SensorFrame& frame) noexcept {

@@ -7,8 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "core/config_reader.hpp"
+#include "core/angle.hpp"
 #include "cosim/log_reader.hpp"
+#include "experiment/believed_robot.hpp"
 #include "experiment/build_info.hpp"
 #include "experiment/contact_report.hpp"
 #include "experiment/ee_reference.hpp"
@@ -17,7 +18,6 @@
 #include "experiment/run_replay.hpp"
 #include "experiment/text_file.hpp"
 #include "metrics/balance_metrics.hpp"
-#include "model/robot_reader.hpp"
 #include "plant/environment.hpp"
 #include "plant/faults.hpp"
 #include "report/write_report.hpp"
@@ -25,7 +25,6 @@
 namespace ballbot {
 namespace {
 
-constexpr double kDegPerRad = 57.295779513082320877;
 constexpr const char* kWheels[] = {"wheel1", "wheel2", "wheel3"};
 constexpr const char* kArms[] = {"arm1", "arm2", "arm3"};
 
@@ -210,8 +209,7 @@ void addVerdicts(const RunResult& result, ReportData& data) {
 void writeRunReport(const Scenario& scenario, const RunResult& result, const RunFolder& folder) {
   const RunLog log = readRunLog(folder.logFile());
   const std::vector<LogTable> tables = logTables(log);
-  ConfigReader robot_in(scenario.section("robot"), "robot");
-  const RobotParameters robot = readRobot(robot_in);
+  const RobotParameters robot = scenarioRobot(scenario);
   const std::vector<Push> pushes = scheduledPushes(scenario.tree);
 
   ReportData data;

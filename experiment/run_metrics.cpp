@@ -1,0 +1,72 @@
+#include "experiment/run_metrics.hpp"
+
+#include "experiment/believed_robot.hpp"
+#include "experiment/ee_reference.hpp"
+#include "experiment/estimate_log.hpp"
+#include "messages/convert.hpp"
+#include "plant/environment.hpp"
+
+namespace ballbot {
+namespace {
+
+std::vector<PushMetrics::Interval> pushIntervals(const Scenario& scenario) {
+  std::vector<PushMetrics::Interval> out;
+  for (const Push& push : scheduledPushes(scenario.tree)) {
+    out.push_back({push.start, push.end(), push.force_W.head<2>()});
+  }
+  return out;
+}
+
+EeStepMetrics stepMetrics(const Scenario& scenario) {
+  const EeReference reference = readEeReference(scenario);
+  return {reference.initial, reference.steps, kSimStart + scenario.duration};
+}
+
+}  // namespace
+
+RunMetrics::RunMetrics(const Scenario& scenario)
+    : balance_(scenario.release),
+      push_(pushIntervals(scenario)),
+      motion_(scenario),
+      steps_(stepMetrics(scenario)),
+      contact_(scenarioRobot(scenario)),
+      estimation_(makeEstimationErrors(scenario)) {}
+
+void RunMetrics::add(const Tick& tick, const RobotController& controller) {
+  if (!tick.truth) return;
+  const TruthFrame& truth = *tick.truth;
+  balance_.add(truth, tick.control.command);
+  push_.add(truth);
+  motion_.add(truth, tick.control.command);
+  steps_.add(truth);
+  contact_.add(truth, Eigen::Map<const Vector3>(tick.control.plan.contact_asked_W),
+               Eigen::Map<const Vector3>(tick.control.estimate.contact_force_W));
+  if (!tick.control.has_estimate) return;
+  estimation_.add(truth, stateOf(tick.control.estimate));
+  if (const auto own = controller.estimator().selfAssessment()) estimation_.addConsistency(*own);
+}
+
+std::map<std::string, double> RunMetrics::values(const RobotController& controller) const {
+  std::map<std::string, double> all = balance_.values();
+  all.merge(push_.values());
+  all.merge(motion_.values());
+  all.merge(controller.feedforwardShare().values());
+  all.merge(steps_.values());
+  all.merge(contact_.values());
+  all.merge(estimation_.values());
+  all.merge(controller.counters());
+  return all;
+}
+
+std::vector<std::string> RunMetrics::names(const RobotController& controller) {
+  std::vector<std::string> all;
+  for (const auto& names : {BalanceMetrics::names(), PushMetrics::names(), EeStepMetrics::names(),
+                            ContactMetrics::names(), MotionMetrics::names(),
+                            FeedforwardShare::names(), EstimationErrors::names()}) {
+    all.insert(all.end(), names.begin(), names.end());
+  }
+  for (const auto& counter : controller.counters()) all.push_back(counter.first);
+  return all;
+}
+
+}  // namespace ballbot
