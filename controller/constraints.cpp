@@ -1,11 +1,10 @@
 #include "controller/constraints.hpp"
 
+#include "core/angle.hpp"
 #include "core/config_reader.hpp"
 
 namespace ballbot {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 void readBarrier(ConfigReader& in, RelaxedBarrier& barrier) {
   barrier.mu = in.numberOr("mu", barrier.mu, {0, 1e6});
@@ -52,7 +51,7 @@ Constraints Constraints::read(ConfigReader& in, const RobotParameters& robot) {
   if (in.has("tilt_limit")) {
     ConfigReader tilt = in.child("tilt_limit");
     readBarrier(tilt, c.tilt);
-    c.tilt_limit = kDegree * tilt.numberOr("limit_deg", c.tilt_limit / kDegree, {1, 80});
+    c.tilt_limit = kRadPerDeg * tilt.numberOr("limit_deg", c.tilt_limit / kRadPerDeg, {1, 80});
     tilt.finish();
   }
   in.finish();

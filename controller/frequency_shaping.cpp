@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/angle.hpp"
 #include "core/config_reader.hpp"
 #include "core/error.hpp"
 
@@ -16,7 +17,7 @@ std::complex<double> FrequencyShaping::filter(double omega) const {
 
 FrequencyShaping FrequencyShaping::forBandwidth(double bandwidth_Hz) {
   FrequencyShaping out;
-  out.zero = 0.75 * 2 * 3.14159265358979323846 * bandwidth_Hz;
+  out.zero = 0.75 * kTwoPi * bandwidth_Hz;
   out.pole = 15 * out.zero;
   return out;
 }
@@ -26,8 +27,10 @@ FrequencyShaping FrequencyShaping::read(ConfigReader& in) {
   const bool enabled = in.booleanOr("enabled", true);
   if (in.has("actuator_bandwidth_Hz")) {
     if (in.has("zero_rad_per_s") || in.has("pole_rad_per_s")) {
-      throw InputError(fmt::format("{} stands beside zero_rad_per_s or pole_rad_per_s, must be the "
-                                   "one or the other", in.at("actuator_bandwidth_Hz")));
+      throw InputError(
+          fmt::format("{} stands beside zero_rad_per_s or pole_rad_per_s, must be the "
+                      "one or the other",
+                      in.at("actuator_bandwidth_Hz")));
     }
     out = forBandwidth(in.number("actuator_bandwidth_Hz", {0.1, 1e4}));
   } else {

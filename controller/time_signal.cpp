@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "core/angle.hpp"
 #include "core/config_reader.hpp"
 #include "core/error.hpp"
 
 namespace ballbot {
 namespace {
 
-constexpr double kTwoPi = 6.28318530717958647692;
 constexpr double kLongest_s = 1e6;
 
 }  // namespace
@@ -118,9 +118,9 @@ TimedWeight<N> TimedWeight<N>::read(ConfigReader& in) {
   return out;
 }
 
-#define BALLBOT_INSTANTIATE(N)                                                                  \
-  template class TimeSignal<N>;                                                                 \
-  template class TimedWeight<N>;                                                                \
+#define BALLBOT_INSTANTIATE(N)   \
+  template class TimeSignal<N>;  \
+  template class TimedWeight<N>; \
   template Eigen::Matrix<double, N, 1> readVector<N>(ConfigReader&, const char*, double, double);
 BALLBOT_INSTANTIATE(1)
 BALLBOT_INSTANTIATE(2)

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
+#include "core/angle.hpp"
 #include "core/config_reader.hpp"
 
 namespace ballbot {
@@ -14,7 +15,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kLowestHz = 0.05, kHighestHz = 500;
 constexpr int kPerDecade = 200;
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/angle.hpp"
 #include "model/frames.hpp"
 
 namespace ballbot {
@@ -21,7 +22,6 @@ Matrix3 inverseRightJacobian(const Vector3& phi) noexcept {
 }
 
 double unwrapped(double wrapped, double previous) noexcept {
-  constexpr double kTwoPi = 6.283185307179586476925;
   return wrapped + kTwoPi * std::round((previous - wrapped) / kTwoPi);
 }
 

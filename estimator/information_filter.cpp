@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "core/angle.hpp"
+
 namespace ballbot {
 namespace {
 
-constexpr double kDoubtTilt = 10 * 3.14159265358979323846 / 180;  // [rad]
-constexpr double kDoubtVelocity = 0.5;                            // [m/s]
-constexpr double kDoubtOmega = 1.0;                               // [rad/s]
+constexpr double kDoubtTilt = 10 * kRadPerDeg;  // [rad]
+constexpr double kDoubtVelocity = 0.5;          // [m/s]
+constexpr double kDoubtOmega = 1.0;             // [rad/s]
 
 }  // namespace
 

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angle.hpp"
+
 namespace ballbot {
 namespace {
 
-constexpr double kDegPerRad = 57.295779513082320877;
 
 }  // namespace
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "core/angle.hpp"
 #include "metrics/balance_metrics.hpp"
 
 namespace ballbot {
 namespace {
 
-constexpr double kDegPerRad = 57.295779513082320877;
 
 }  // namespace
 

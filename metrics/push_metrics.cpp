@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angle.hpp"
 #include "model/frames.hpp"
 
 namespace ballbot {
 namespace {
 
-constexpr double kDegPerRad = 57.295779513082320877;
 
 /// Horizontal part of the base's z axis, in W: where the base leans, sine of the angle.
 Eigen::Vector2d horizontalLean(const StateVector& x) {

@@ -4,15 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "core/angle.hpp"
 #include "core/config_reader.hpp"
 #include "core/error.hpp"
 
 namespace ballbot {
-namespace {
-
-constexpr double kTwoPi = 6.283185307179586;
-
-}  // namespace
+namespace {}  // namespace
 
 // Output blocked: tau_s/tau_d = k (1 + Kp) / (J s^2 + (B + k Kd) s + k (1 + Kp)). Both gains follow
 // from its natural frequency and damping.

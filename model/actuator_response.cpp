@@ -4,10 +4,11 @@
 
 #include <Eigen/Cholesky>
 
+#include "core/angle.hpp"
+
 namespace ballbot {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 constexpr double kHighestHz = 1e5;  // no drive's torque loop gets there
 
 }  // namespace

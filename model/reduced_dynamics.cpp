@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/angle.hpp"
 #include "core/error.hpp"
 #include "model/dynamics_lanes.hpp"
 #include "model/end_effector.hpp"
@@ -100,7 +101,7 @@ Equilibrium findEquilibrium(const ReducedDynamics& dynamics, const Vector3& arm)
   const DynamicsConstants constants(dynamics.robot());
   const Pass pass(constants, found.x.head<kPositionDim>(), VelocityVector::Zero());
   const Vector3 up = pass.composite[0].first.normalized();
-  const double limit = 30 * 3.14159265358979323846 / 180;
+  const double limit = 30 * kRadPerDeg;
   if (!(up.z() >= std::cos(limit))) {
     throw NumericalError(fmt::format(
         "no equilibrium within 30 degrees for the arm at ({:.3f}, {:.3f}, {:.3f}) rad: the centre "

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/angle.hpp"
 #include "core/config_reader.hpp"
 #include "core/error.hpp"
 #include "model/urdf_loader.hpp"
@@ -12,14 +13,13 @@
 namespace ballbot {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kSameLength_m = 1e-6;
 
 void readWheels(ConfigReader in, RobotParameters::Wheels& wheels) {
   wheels.radius = in.number("radius_m", {kTiny, kInf});
-  wheels.contact_zenith = kDegree * in.number("contact_zenith_deg", {1, 89});
+  wheels.contact_zenith = kRadPerDeg * in.number("contact_zenith_deg", {1, 89});
   wheels.azimuth = in.numbers<kWheelCount>("azimuth_deg", {-360, 360});
-  for (double& azimuth : wheels.azimuth) azimuth *= kDegree;
+  for (double& azimuth : wheels.azimuth) azimuth *= kRadPerDeg;
   in.finish();
 }
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angle.hpp"
 #include "core/config_reader.hpp"
 
 namespace ballbot {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kRightAngle = 90 * kDegree;
+constexpr double kRightAngle = 90 * kRadPerDeg;
 
 double direction(const DoorParameters& p) { return p.counterclockwise ? 1 : -1; }
 
@@ -32,9 +32,9 @@ DoorParameters DoorParameters::read(ConfigReader& in) {
   DoorParameters p;
   const auto hinge = in.numbers<2>("hinge_m", {-100, 100});
   p.hinge << hinge[0], hinge[1];
-  p.closed_heading = kDegree * in.number("closed_heading_deg", {-360, 360});
-  p.counterclockwise =
-      in.choice("opens", {std::pair<const char*, bool>{"counterclockwise", true}, {"clockwise", false}});
+  p.closed_heading = kRadPerDeg * in.number("closed_heading_deg", {-360, 360});
+  p.counterclockwise = in.choice(
+      "opens", {std::pair<const char*, bool>{"counterclockwise", true}, {"clockwise", false}});
   p.width = in.numberOr("width_m", p.width, {0.1, 10});
   p.height = in.numberOr("height_m", p.height, {0.1, 10});
   p.thickness = in.numberOr("thickness_m", p.thickness, {1e-3, 1});
@@ -45,7 +45,8 @@ DoorParameters DoorParameters::read(ConfigReader& in) {
       in.numberOr("friction_smoothing_rad_per_s", p.friction_smoothing, {1e-4, 10});
   p.closer_torque = in.numberOr("closer_torque_Nm", p.closer_torque, {0, 1e3});
   p.closer_stiffness = in.numberOr("closer_stiffness_Nm_per_rad", p.closer_stiffness, {0, 1e3});
-  p.opening_limit = kDegree * in.numberOr("opening_limit_deg", p.opening_limit / kDegree, {1, 300});
+  p.opening_limit =
+      kRadPerDeg * in.numberOr("opening_limit_deg", p.opening_limit / kRadPerDeg, {1, 300});
   in.finish();
   return p;
 }

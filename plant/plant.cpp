@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "core/angle.hpp"
 #include "core/error.hpp"
 #include "model/frames.hpp"
 #include "plant/drive_bank.hpp"
@@ -16,7 +17,6 @@ namespace ballbot {
 namespace {
 
 constexpr std::uint32_t kBlobVersion = 1;
-constexpr double kTwoPi = 6.283185307179586476925;
 
 /// What decides which numbers a saved state holds, in words.
 std::string stateForm(const PlantConfig& c) {
@@ -186,9 +186,10 @@ class Plant::Impl {
 
   SimTime nextEvent(SimTime end) const {
     const SimTime now = state_.now;
-    SimTime next = std::min({end, nextMultiple(now, config_.drive_period),
-                             nextMultiple(now, config_.sensors.imu.period),
-                             nextMultiple(now, config_.substep), environment_.nextChange(now), faults_.nextChange(now)});
+    SimTime next =
+        std::min({end, nextMultiple(now, config_.drive_period),
+                  nextMultiple(now, config_.sensors.imu.period), nextMultiple(now, config_.substep),
+                  environment_.nextChange(now), faults_.nextChange(now)});
     if (motion_capture_.present()) {
       next = std::min(next, nextMultiple(now, motion_capture_.period()));
     }

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "core/angle.hpp"
 #include "core/config_reader.hpp"
 #include "core/error.hpp"
 
 namespace ballbot {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr int kMaxDelayTicks = 1000;
 
 PlantFidelity readFidelity(ConfigReader in) {
@@ -63,9 +63,9 @@ void readPlantSection(ConfigReader in, PlantConfig& c) {
 
 void readInitial(ConfigReader in, PlantConfig& c) {
   RobotPose& pose = c.initial.pose;
-  pose.pitch = kDegree * in.numberOr("pitch_deg", 0, {-60, 60});
-  pose.roll = kDegree * in.numberOr("roll_deg", 0, {-60, 60});
-  pose.yaw = kDegree * in.numberOr("yaw_deg", 0, {-180, 180});
+  pose.pitch = kRadPerDeg * in.numberOr("pitch_deg", 0, {-60, 60});
+  pose.roll = kRadPerDeg * in.numberOr("roll_deg", 0, {-60, 60});
+  pose.yaw = kRadPerDeg * in.numberOr("yaw_deg", 0, {-180, 180});
   c.initial.release = kSimStart + in.durationOr("release_s", SimDuration::zero(), {0, 100});
   if (in.has("arm_rad")) {
     const auto arm = in.numbers<kArmJointCount>("arm_rad");

@@ -2,13 +2,11 @@
 
 #include <cmath>
 
+#include "core/angle.hpp"
 #include "core/config_reader.hpp"
 
 namespace ballbot {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegree = kPi / 180;
 
 Vector3 firstThree(const std::array<double, 4>& v) { return {v[0], v[1], v[2]}; }
 
@@ -41,8 +39,8 @@ SensorParameters SensorParameters::read(ConfigReader& in) {
   p.imu.accel_resolution = imu.number("accel_resolution_m_per_s2", not_negative);
   imu.finish();
   ConfigReader encoders = in.child("encoders");
-  p.encoders.motor_resolution = kDegree * encoders.number("motor_resolution_deg", not_negative);
-  p.encoders.joint_resolution = kDegree * encoders.number("joint_resolution_deg", not_negative);
+  p.encoders.motor_resolution = kRadPerDeg * encoders.number("motor_resolution_deg", not_negative);
+  p.encoders.joint_resolution = kRadPerDeg * encoders.number("joint_resolution_deg", not_negative);
   p.encoders.motor_velocity_filter = encoders.numberOr(
       "motor_velocity_filter_Hz", p.encoders.motor_velocity_filter, {kTiny, kInf});
   p.encoders.joint_velocity_filter = encoders.number("velocity_filter_Hz", {kTiny, kInf});

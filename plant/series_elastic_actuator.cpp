@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angle.hpp"
+
 namespace ballbot {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 constexpr double kSpeedDroop = 0.1;  // share of the speed range over which the peak torque is lost
 
 }  // namespace

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "core/angle.hpp"
 #include "core/config_reader.hpp"
 
 namespace ballbot {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr int kAngle = 0, kRate = 1, kDoorStretch = 2;
 
 using StretchMap = Eigen::Map<Eigen::Vector2d>;
@@ -19,7 +19,7 @@ WallParameters WallParameters::read(ConfigReader& in) {
   WallParameters p;
   const auto foot = in.numbers<2>("foot_m", {-100, 100});
   p.p_WF << foot[0], foot[1], 0;
-  p.heading = kDegree * in.number("facing_deg", {-360, 360});
+  p.heading = kRadPerDeg * in.number("facing_deg", {-360, 360});
   p.width = in.numberOr("width_m", p.width, {0.01, 100});
   p.height = in.numberOr("height_m", p.height, {0.01, 100});
   in.finish();
@@ -84,8 +84,7 @@ Vector3 Surroundings::derivative(const double* s, const Point& e, double* sdot) 
     const Touch t = touchDoor(s, e);
     force += t.force_W;
     sdot[kAngle] = s[kRate];
-    sdot[kRate] =
-        doorAcceleration(*p_.door, door(s), openingTorque(*p_.door, e.p_W, -t.force_W));
+    sdot[kRate] = doorAcceleration(*p_.door, door(s), openingTorque(*p_.door, e.p_W, -t.force_W));
     StretchMap(sdot + kDoorStretch) = t.slip;
   }
   if (p_.wall) {

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angle.hpp"
+
 namespace ballbot {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 // The compensation is positive feedback of the motor's acceleration, so it must stay slower than
 // the torque loop that surrounds it.
 constexpr double kCompensationBandwidthShare = 0.5;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/loop_analysis.hpp"
+#include "core/angle.hpp"
 #include "experiment/text_file.hpp"
 #include "tools/bode_figure.hpp"
 #include "tools/commands.hpp"
@@ -49,7 +50,7 @@ nlohmann::ordered_json toJson(const Scenario& scenario, const LoopAnalysis& a) {
         {"wanted_bandwidth_Hz", a.drives.actuators.of(joint).torque_bandwidth},
         {"blocked_bandwidth_Hz", inHertz(response.bandwidth())},
         {"load_inertia_kgm2", a.inertia[joint]},
-        {"loaded_gain_at_1_Hz", std::abs(response.loaded(2 * 3.14159265358979323846, a.inertia[joint]))}};
+        {"loaded_gain_at_1_Hz", std::abs(response.loaded(kTwoPi, a.inertia[joint]))}};
   }
   j["delay_ms"] = 1e3 * a.delay;
   j["loop_at_the_wheels"] = {{"ideal_drives", marginsJson(a.with_ideal_drives)},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/angle.hpp"
 #include "cosim/log_reader.hpp"
 #include "experiment/contact_report.hpp"
 #include "experiment/log_tables.hpp"
@@ -16,7 +17,6 @@
 namespace ballbot {
 namespace {
 
-constexpr double kDegrees = 57.295779513082320877;  ///< per rad
 /// Enough for a line as wide as the picture.
 constexpr std::size_t kSamples = 400;
 
@@ -56,13 +56,13 @@ class Panels {
     } else if (name == "ee_angles") {
       axes.y_label = "end-effector [deg]";
       const char* const names[] = {"yaw", "pitch", "roll"};
-      for (int i = 0; i < 3; ++i) addWithReference(axes, names[i], i, schedule_ != nullptr, kDegrees,
+      for (int i = 0; i < 3; ++i) addWithReference(axes, names[i], i, schedule_ != nullptr, kDegPerRad,
           [i](const Message& m) { return poseOf(m)[3 + i]; },
           [i](const Tasks& t) { return yawPitchRollFromRotation(t.R_WE)[i]; });
     } else if (name == "tilt") {
       axes.y_label = "base [deg]";
-      addTruth(axes, "pitch", 0, kDegrees, [](const Message& m) { return m.q[kPitch]; });
-      addTruth(axes, "roll", 1, kDegrees, [](const Message& m) { return m.q[kRoll]; });
+      addTruth(axes, "pitch", 0, kDegPerRad, [](const Message& m) { return m.q[kPitch]; });
+      addTruth(axes, "roll", 1, kDegPerRad, [](const Message& m) { return m.q[kRoll]; });
     } else if (name == "arm") {
       axes.y_label = "arm joint [rad]";
       for (int i = 0; i < 3; ++i)
@@ -85,7 +85,7 @@ class Panels {
       }
     } else {
       axes.y_label = "door angle [deg]";
-      addTruth(axes, "door", 0, kDegrees, [](const Message& m) { return m.door_angle; });
+      addTruth(axes, "door", 0, kDegPerRad, [](const Message& m) { return m.door_angle; });
     }
     return axes;
   }

@@ -41,9 +41,9 @@ Errors run(const MotionScript& script, const SensorNoise& noise, double seconds,
     velocity2 += v_error.squaredNorm();
     ++count;
     e.position = (x.head<2>() - m.p_WK.head<2>()).norm();
-    e.yaw_deg = std::abs(x[kYaw] - m.yaw_pitch_roll[0]) / kDeg;
+    e.yaw_deg = std::abs(x[kYaw] - m.yaw_pitch_roll[0]) / kRadPerDeg;
   }
-  e.tilt_rms_deg = std::sqrt(tilt2 / count) / kDeg;
+  e.tilt_rms_deg = std::sqrt(tilt2 / count) / kRadPerDeg;
   e.velocity_rms = std::sqrt(velocity2 / count);
   return e;
 }
@@ -70,7 +70,7 @@ TEST(ComplementaryObserver, AlignsTiltAndGyroBiasAtRest) {
   SensorNoise noise = noNoise();
   noise.gyro_bias_sigma = 3e-3;
   MotionScript script = standingStill();
-  script.rest_yaw_pitch_roll << 0, 3 * kDeg, -2 * kDeg;
+  script.rest_yaw_pitch_roll << 0, 3 * kRadPerDeg, -2 * kRadPerDeg;
   SimulatedSensors sensors(script, robot, noise, 3);
   ComplementaryObserver observer(robot, {});
   EXPECT_FALSE(observer.estimate(kSimStart).aligned);
@@ -80,8 +80,8 @@ TEST(ComplementaryObserver, AlignsTiltAndGyroBiasAtRest) {
   }
   const StateEstimate at_rest = observer.estimate(sensors.frame().time);
   EXPECT_TRUE(at_rest.aligned);
-  EXPECT_NEAR(at_rest.x[kPitch], 3 * kDeg, 1e-12);
-  EXPECT_NEAR(at_rest.x[kRoll], -2 * kDeg, 1e-12);
+  EXPECT_NEAR(at_rest.x[kPitch], 3 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(at_rest.x[kRoll], -2 * kRadPerDeg, 1e-12);
   EXPECT_NEAR(at_rest.x[kYaw], 0, 1e-15);
   sensors.advance();
   observer.update(sensors.frame(), false);
@@ -96,7 +96,7 @@ TEST(ComplementaryObserver, NoSpinFindsTheYawRateBiasThatGravityCannotShow) {
   };
   const Errors e = run(standingStill(), noNoise(), 300, add_bias);
   // It is learned with 60 s: the yaw error ends at 0.02 * 60 rad; without, it would be 12 rad.
-  EXPECT_NEAR(e.yaw_deg * kDeg, 1.2, 0.05);
+  EXPECT_NEAR(e.yaw_deg * kRadPerDeg, 1.2, 0.05);
 }
 
 TEST(ComplementaryObserver, YawIsContinuousAcrossHalfTurns) {

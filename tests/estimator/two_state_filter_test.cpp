@@ -78,7 +78,7 @@ TEST(TwoStateFilter, StartsInMotionWithoutAnyRest) {
                   Vector3::UnitZ())
                      .norm();
   }
-  EXPECT_LT(tilt_error, 0.5 * kDeg);
+  EXPECT_LT(tilt_error, 0.5 * kRadPerDeg);
 }
 
 TEST(TwoStateFilter, BridgesAnImuGapOfFiftyMilliseconds) {
@@ -118,7 +118,7 @@ TEST(TwoStateFilter, DropsLateAndTakesDelayedImuSamples) {
   EXPECT_EQ(filter.stateTime(), sent.back().time - SimDuration{5'000'000});
   // The estimate of now is brought forward by 5 ms.
   const StateVector x = filter.estimate(sent.back().time).x;
-  EXPECT_NEAR(x[kPitch], sensors.truth().motion.yaw_pitch_roll[1], 0.1 * kDeg);
+  EXPECT_NEAR(x[kPitch], sensors.truth().motion.yaw_pitch_roll[1], 0.1 * kRadPerDeg);
   EXPECT_LT((x.head<2>() - sensors.truth().motion.p_WK.head<2>()).norm(), 5e-3);
 }
 
@@ -218,12 +218,12 @@ TEST(TwoStateFilter, ToleratesAWheelThatSlips) {
 TEST(TwoStateFilter, RecoversFromAWrongInitialTilt) {
   for (const double error_deg : {10.0, -10.0}) {
     FilterRun run;
-    run.settings.initial_tilt_error << error_deg * kDeg, 0;
+    run.settings.initial_tilt_error << error_deg * kRadPerDeg, 0;
     double recovered_at = 0;
     run.observe = [&](const TwoStateFilter& f, const Truth& t) {
       const Vector3 up = f.state().R_WB.transpose() * Vector3::UnitZ();
       const Vector3 up_true = t.motion.R_WB.transpose() * Vector3::UnitZ();
-      if ((up - up_true).norm() > 2 * kDeg) recovered_at = t.t_s;
+      if ((up - up_true).norm() > 2 * kRadPerDeg) recovered_at = t.t_s;
     };
     RejectionCounts counts;
     const RunErrors e = play(run, &counts);
@@ -267,7 +267,7 @@ TEST(TwoStateFilter, ExternalPoseBoundsTheDrift) {
   EXPECT_NEAR(static_cast<double>(counts[Rejection::kPoseOutlier]), 40 * 100 / 50, 4);
   // The first ones are from before the release.
   EXPECT_LE(counts[Rejection::kPoseLate], 4);
-  EXPECT_LT(std::sqrt(yaw2 / n), 0.2 * kDeg);
+  EXPECT_LT(std::sqrt(yaw2 / n), 0.2 * kRadPerDeg);
   EXPECT_LT(std::sqrt(position2 / n), 2e-3);
 }
 

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/angle.hpp"
+
 namespace ballbot {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 TruthFrame at(double t, double px, double pitch) {
   TruthFrame truth;
@@ -35,7 +35,8 @@ TEST(BalanceMetrics, MeasuresASineAsItsAmplitudeAndItsRms) {
 TEST(BalanceMetrics, CountsFromTheRelease) {
   BalanceMetrics metrics(kSimStart + std::chrono::seconds(1));
   metrics.add(at(0.5, 0, 0.5), {});
-  EXPECT_EQ(metrics.values().count("largest_tilt_deg"), 0u) << "nothing is known before the release";
+  EXPECT_EQ(metrics.values().count("largest_tilt_deg"), 0u)
+      << "nothing is known before the release";
   metrics.add(at(1, 3, 0.1), {});  // home is where it was released
   metrics.add(at(2, 3.25, 0.1), {});
   EXPECT_NEAR(metrics.values().at("final_ball_position_error_m"), 0.25, 1e-12);

@@ -50,12 +50,12 @@ TEST(EstimationErrors, AreWhatTheyAreCalled) {
   EstimationErrors errors(seconds(0), true);
   for (int i = 0; i <= 200; ++i) {
     TruthFrame truth = rolling(0.01 * i);
-    truth.state[kPitch] = 2 * kDeg;
+    truth.state[kPitch] = 2 * kRadPerDeg;
     StateEstimate estimate;
     estimate.x = truth.state;
     estimate.x[kBallY] += 0.02;
-    estimate.x[kYaw] += 2 * std::acos(-1.0) - 3 * kDeg;
-    estimate.x[kPitch] = (i < 100 ? 1 : 2) * kDeg;
+    estimate.x[kYaw] += 2 * std::acos(-1.0) - 3 * kRadPerDeg;
+    estimate.x[kPitch] = (i < 100 ? 1 : 2) * kRadPerDeg;
     estimate.x[kPositionDim + kBallVx] += 3e-3;
     estimate.x[kPositionDim + kBallVy] += 4e-3;
     errors.add(truth, estimate.x);
@@ -89,8 +89,8 @@ TEST(EstimationErrors, NeesAndNisOfAMatchedFilterAreAsExpected) {
   };
   const RunErrors e = play(run);
   const auto values = errors.values();
-  // The run's own errors weigh all samples alike; the metric gives the first, at which it begins, no
-  // duration.
+  // The run's own errors weigh all samples alike; the metric gives the first, at which it begins,
+  // no duration.
   EXPECT_NEAR(values.at("tilt_rms_deg"), e.tilt_rms_deg, 5e-3 * e.tilt_rms_deg);
   EXPECT_NEAR(values.at("velocity_rms_m_per_s"), e.velocity_rms, 5e-3 * e.velocity_rms);
   EXPECT_NEAR(values.at("nis_mean"), 4, 0.1);

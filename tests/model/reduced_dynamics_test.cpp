@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.hpp"
 #include "core/error.hpp"
 #include "model/frames.hpp"
 #include "tests/model/robot_fixture.hpp"
@@ -112,7 +113,7 @@ TEST_F(ReducedDynamicsTest, StandsStillAtTheEquilibrium) {
 
 TEST_F(ReducedDynamicsTest, LeansForwardAtTheNominalArmPose) {
   const Equilibrium at = findEquilibrium(dynamics, dynamics.robot().nominal_arm);
-  const double degree = 3.14159265358979323846 / 180;
+  const double degree = kRadPerDeg;
   EXPECT_NEAR(at.x[kPitch] / degree, 1.18, 0.005);
   EXPECT_NEAR(at.x[kRoll], 0, 1e-15);
   EXPECT_LT((dynamics.endEffector(at.x).p_WE - Vector3(0.198, 0, 0.949)).cwiseAbs().maxCoeff(),

@@ -41,7 +41,7 @@ RunErrors play(const FilterRun& run, RejectionCounts* counts) {
     const TangentVector error = x_true.minus(x);
     // The angle between the two verticals.
     const double tilt =
-        ((x.R_WB.transpose() - x_true.R_WB.transpose()) * Vector3::UnitZ()).norm() / kDeg;
+        ((x.R_WB.transpose() - x_true.R_WB.transpose()) * Vector3::UnitZ()).norm() / kRadPerDeg;
     const double velocity = error.segment<2>(kTanVelocity).norm();
     tilt2 += tilt * tilt;
     velocity2 += velocity * velocity;
@@ -51,7 +51,7 @@ RunErrors play(const FilterRun& run, RejectionCounts* counts) {
     e.nis_mean += filter.nis();
     e.position_end = error.segment<2>(kTanPosition).norm();
     e.yaw_end_deg =
-        std::abs(filter.estimate(frame.time).x[kYaw] - truth.motion.yaw_pitch_roll[0]) / kDeg;
+        std::abs(filter.estimate(frame.time).x[kYaw] - truth.motion.yaw_pitch_roll[0]) / kRadPerDeg;
     ++samples;
     if (run.observe) run.observe(filter, truth);
   }

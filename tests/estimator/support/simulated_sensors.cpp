@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/angle.hpp"
+
 namespace ballbot::test {
 namespace {
 
@@ -27,7 +29,7 @@ SensorNoise whiteNoise() {
 
 SensorNoise quantisedNoise() {
   SensorNoise n;
-  n.encoder_step = 0.025 * 3.14159265358979323846 / 180;
+  n.encoder_step = 0.025 * kRadPerDeg;
   return n;
 }
 

@@ -4,12 +4,11 @@
 
 #include <Eigen/Geometry>
 
+#include "core/angle.hpp"
 #include "model/frames.hpp"
 
 namespace ballbot::test {
 namespace {
-
-constexpr double kTwoPi = 6.283185307179586476925;
 
 /// A function of time with its first two derivatives.
 struct Jet {

@@ -3,12 +3,11 @@
 #include <array>
 #include <vector>
 
+#include "core/angle.hpp"
 #include "model/robot_parameters.hpp"
 #include "model/state.hpp"
 
 namespace ballbot::test {
-
-constexpr double kDeg = 3.14159265358979323846 / 180;
 
 /// amplitude * (sin(2 pi frequency t + phase) - sin(phase)), t from the release.
 struct Harmonic {
