@@ -11,6 +11,8 @@ namespace ballbot {
 
 ArmInverseKinematicsConfig ArmInverseKinematicsConfig::read(ConfigReader& in) {
   ArmInverseKinematicsConfig c;
+  c.base =
+      in.choiceOr<Base>("base", c.base, {{"task", Base::kTask}, {"estimated", Base::kEstimated}});
   c.gain = in.numberOr("gain_per_s", c.gain, {kTiny, 100});
   c.damping = in.numberOr("damping", c.damping, {kTiny, 10});
   c.rate_limit = in.numberOr("joint_rate_limit_rad_per_s", c.rate_limit, {kTiny, 100});

@@ -7,11 +7,17 @@ namespace ballbot {
 class ConfigReader;
 
 struct ArmInverseKinematicsConfig {
+  /// The base on which the arm reaches for its place in the world.
+  enum class Base {
+    kTask,       ///< upright where the base's own tasks ask it to be: the arm feels nothing of it
+    kEstimated,  ///< where it is: the arm makes up for the base's motion
+  };
+  Base base = Base::kTask;
   double gain = 4;        ///< rate at which an error of the pose is worked off [1/s]
   double damping = 0.1;   ///< share of the mean stiffness added: bounds rates near singular poses
   double rate_limit = 1;  ///< of each joint [rad/s]
 
-  /// Keys, each optional: gain_per_s, damping, joint_rate_limit_rad_per_s.
+  /// Keys, each optional: base (task, estimated), gain_per_s, damping, joint_rate_limit_rad_per_s.
   static ArmInverseKinematicsConfig read(ConfigReader& in);
 };
 

@@ -10,11 +10,6 @@ constexpr char kBlobKind[] = "decoupled_law";
 constexpr std::uint32_t kBlobVersion = 1;
 constexpr double kNoLimit = 1e3;  ///< [rad]
 
-RobotParameters withoutPayload(RobotParameters robot) {
-  robot.payload_mass = 0;
-  return robot;
-}
-
 /// The whole-body problem less everything that is about the arm.
 MpcConfig baseOnly(MpcConfig c) {
   auto tasks = std::make_shared<TaskSchedule>(*c.schedule);
@@ -57,9 +52,10 @@ DecoupledConfig DecoupledConfig::read(ConfigReader& in) {
 
 DecoupledLaw::DecoupledLaw(const RobotParameters& robot, const MpcConfig& mpc,
                            const DecoupledConfig& config)
-    : frozen_arm_(robot.nominal_arm),
-      hold_torque_(findEquilibrium(ReducedDynamics(withoutPayload(robot)), robot.nominal_arm)
-                       .tau.tail<kArmJointCount>()),
+    : ik_base_(config.inverse_kinematics.base),
+      frozen_arm_(robot.nominal_arm),
+      hold_torque_(
+          findEquilibrium(ReducedDynamics(robot), robot.nominal_arm).tau.tail<kArmJointCount>()),
       schedule_(mpc.schedule),
       inverse_kinematics_(robot, config.inverse_kinematics),
       pid_(config.pid),
@@ -88,6 +84,11 @@ void DecoupledLaw::planArm(SimTime now, const StateVector& x) noexcept {
   Tasks tasks;
   schedule_->at(toSeconds(now), toSeconds(now), tasks);
   StateVector at_set_point = x;
+  if (ik_base_ == ArmInverseKinematicsConfig::Base::kTask) {
+    at_set_point.setZero();
+    at_set_point.segment<2>(kBallX) = tasks.ball_position;
+    at_set_point[kYaw] = tasks.yaw;
+  }
   at_set_point.segment<3>(kArm1) = planned_.position;
   planned_.rate = inverse_kinematics_.rates(at_set_point, tasks);
 }

@@ -27,7 +27,7 @@ struct DecoupledConfig {
 /// The baseline the whole-body MPC is measured against (Minniti et al. 2019, third experiment): an
 /// MPC that balances a base whose arm it takes to be frozen at its nominal pose, and beside it an
 /// arm that follows the end-effector's reference by inverse kinematics and joint PID. Neither knows
-/// what the other does, and neither knows of a payload.
+/// what the other does: the base is told of a payload, but not where the arm takes it.
 ///
 /// The tasks are those of the whole-body MPC: the base takes the ball's, the yaw's and the wheels',
 /// the arm takes the end-effector's. The PID stands in the plan's feedback, beside the tracker's
@@ -56,6 +56,7 @@ class DecoupledLaw final : public ControlLaw {
   };
   void planArm(SimTime now, const StateVector& x) noexcept;
 
+  ArmInverseKinematicsConfig::Base ik_base_;
   Vector3 frozen_arm_, hold_torque_;  ///< [rad], [N m]: of the arm at rest in its nominal pose
   std::shared_ptr<const TaskSchedule> schedule_;
   ArmInverseKinematics inverse_kinematics_;

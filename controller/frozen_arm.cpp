@@ -24,9 +24,11 @@ RobotParameters withFrozenArm(const RobotParameters& robot, const Vector3& arm) 
   Vector3 p_BA = Vector3::Zero();
   for (int i = 0; i < kArmJointCount; ++i) {
     ArmLink& link = out.arm[i];
+    const bool last = i == kArmJointCount - 1;
+    const BodyInertia body = last ? robot.lastLinkWithPayload() : link.inertia;
     p_BA += R_BA * link.p_PJ_P;
     R_BA = R_BA * Eigen::AngleAxisd(arm[i], link.axis).toRotationMatrix();
-    out.base = composed(out.base, turned(robot.arm[i].inertia, R_BA), p_BA);
+    out.base = composed(out.base, turned(body, R_BA), p_BA);
     link.inertia = {kLeftOverMass, Vector3::Zero(), kLeftOver * link.axis * link.axis.transpose()};
   }
   return out;

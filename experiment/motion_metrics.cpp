@@ -12,7 +12,9 @@ RobotLimits limitsOf(const RobotParameters& robot, const std::optional<MpcConfig
   return {robot.wheel_torque_limit, robot.arm_torque_limit, c.arm_lower, c.arm_upper, c.arm_rate_limit, c.tilt_limit};
 }
 
-PlaceReference placeAt(const TaskSchedule& schedule, double t) {
+}  // namespace
+
+PlaceReference placeReference(const TaskSchedule& schedule, double t) {
   Tasks tasks;
   schedule.at(t, t, tasks);
   PlaceReference place;
@@ -22,8 +24,6 @@ PlaceReference placeAt(const TaskSchedule& schedule, double t) {
   place.ee_asked = (tasks.ee_position_weight.array() > 0).cast<double>();
   return place;
 }
-
-}  // namespace
 
 std::optional<MpcConfig> readMpc(const Scenario& scenario) {
   ConfigReader in(scenario.section("controller"), "controller");
@@ -39,7 +39,7 @@ MotionMetrics::MotionMetrics(const Scenario& scenario)
 
 void MotionMetrics::add(const TruthFrame& truth, const ActuatorCommand& command) {
   margins_.add(truth, command);
-  if (mpc_) tracking_.add(truth, placeAt(*mpc_->schedule, toSeconds(truth.time)));
+  if (mpc_) tracking_.add(truth, placeReference(*mpc_->schedule, toSeconds(truth.time)));
 }
 
 std::map<std::string, double> MotionMetrics::values() const {

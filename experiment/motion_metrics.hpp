@@ -16,6 +16,9 @@ namespace ballbot {
 /// @throw InputError
 std::optional<MpcConfig> readMpc(const Scenario& scenario);
 
+/// Where the tasks want ball and end-effector at time t [s], and in which directions they care.
+PlaceReference placeReference(const TaskSchedule& schedule, double t);
+
 /// What a scenario's tasks and limits say about a run: how well ball and end-effector were where
 /// they should be, and how close the run came to its limits.
 class MotionMetrics {

@@ -14,6 +14,7 @@
 #include "experiment/contact_report.hpp"
 #include "experiment/ee_reference.hpp"
 #include "experiment/log_tables.hpp"
+#include "experiment/motion_metrics.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/run_replay.hpp"
 #include "experiment/text_file.hpp"
@@ -58,7 +59,29 @@ class AxesBuilder {
   PlotAxes axes_;
 };
 
-PlotGroup ballGroup(const std::vector<LogTable>& tables) {
+/// Dashed, where the tasks ask for a place of the ball.
+void addBallReference(const LogTable& truth, const TaskSchedule& schedule, PlotGroup& group) {
+  const std::vector<double>& t = truth.column("time_s");
+  std::vector<double> asked[2];
+  bool any[2] = {false, false};
+  for (const double time : t) {
+    const PlaceReference place = placeReference(schedule, time);
+    for (int i = 0; i < 2; ++i) {
+      any[i] = any[i] || place.ball_asked[i] > 0;
+      asked[i].push_back(place.ball[i]);
+    }
+  }
+  for (int i = 0; i < 2; ++i) {
+    const std::string name = i == 0 ? "x reference" : "y reference";
+    if (any[i]) group.axes[0].series.push_back({name, SeriesStyle::kReference, i, t, asked[i]});
+  }
+  if (any[0] && any[1]) {
+    group.paths[0].series.push_back(
+        {"reference", SeriesStyle::kReference, 1, t, asked[0], asked[1]});
+  }
+}
+
+PlotGroup ballGroup(const std::vector<LogTable>& tables, const std::optional<MpcConfig>& mpc) {
   PlotGroup group{"Ball", "Where the ball is and what the controller believes.", {}, {}};
   AxesBuilder position(tables, "position", "m");
   AxesBuilder velocity(tables, "velocity", "m/s");
@@ -76,6 +99,7 @@ PlotGroup ballGroup(const std::vector<LogTable>& tables) {
     path.series.push_back({"ball", SeriesStyle::kMeasured, 0, truth->column("time_s"), truth->column("px"),
                            truth->column("py")});
     group.paths.push_back(std::move(path));
+    if (mpc) addBallReference(*truth, *mpc->schedule, group);
   }
   return group;
 }
@@ -225,7 +249,7 @@ void writeRunReport(const Scenario& scenario, const RunResult& result, const Run
                                                                   : std::nan(""))}};
   addVerdicts(result, data);
   const EeReference reference = readEeReference(scenario);
-  data.groups = {ballGroup(tables), baseGroup(tables), handGroup(log, reference),
+  data.groups = {ballGroup(tables, readMpc(scenario)), baseGroup(tables), handGroup(log, reference),
                  torqueGroup(tables, robot), armGroup(tables)};
   if (auto plans = planGroup(tables)) data.groups.push_back(std::move(*plans));
   const SurroundingsParameters surroundings = surroundingsOf(scenario.tree);

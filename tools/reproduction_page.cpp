@@ -20,7 +20,7 @@ td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 .pair{display:grid;grid-template-columns:1fr 1fr;gap:8px 28px}
 .pair h3{font-size:14px;margin:0;color:#555}.pair p{margin:0}
 svg{max-width:100%;height:auto}.scroll{overflow-x:auto}
-@media(max-width:640px){.pair{grid-template-columns:1fr}body{padding:14px}}
+@media(max-width:640px){.wide{display:none}.pair{grid-template-columns:1fr}body{padding:14px}}
 @media print{h2{break-before:auto}svg,table{break-inside:avoid}}
 </style></head><body>
 <h1>The paper's experiments, repeated</h1>
@@ -68,11 +68,15 @@ std::string numbersTable(const ReproducedExperiment& e) {
 std::string reproductionPage(const std::vector<ReproducedExperiment>& experiments,
                              const std::vector<Comparison>& comparisons) {
   std::string out = kHead;
-  out += "<div class='scroll'><table><tr><th>experiment</th><th>scenario</th><th>verdict</th><th>digest</th></tr>\n";
+  out +=
+      "<div class='scroll'><table><tr><th>experiment</th><th "
+      "class='wide'>scenario</th><th>verdict</th><th class='wide'>digest</th></tr>\n";
   for (const ReproducedExperiment& e : experiments) {
-    out += fmt::format("<tr><td><a href='#{0}'>{1}</a></td><td>{0}</td><td>{2}</td><td><code>{3}</code></td></tr>\n",
-                       e.experiment->scenario, e.experiment->title, verdict(e.result->passed),
-                       e.result->trajectory_digest.substr(0, 12));
+    out += fmt::format(
+        "<tr><td><a href='#{0}'>{1}</a></td><td class='wide'>{0}</td><td>{2}</td><td "
+        "class='wide'><code>{3}</code></td></tr>\n",
+        e.experiment->scenario, e.experiment->title, verdict(e.result->passed),
+        e.result->trajectory_digest.substr(0, 12));
   }
   out += "</table></div>\n";
   if (!comparisons.empty()) {

@@ -51,11 +51,11 @@ TEST(FrozenArm, BaseAndBallAccelerateAsThoseOfARobotWhoseArmIsHeld) {
   }
 }
 
-TEST(FrozenArm, KeepsMassAndEquilibriumAndCarriesNothing) {
+TEST(FrozenArm, KeepsMassAndEquilibriumWithWhatIsInTheHand) {
   RobotParameters robot = exampleRobot();
+  robot.payload_mass = 1;
   const double mass = robot.totalMass();
   const StateVector rest = findEquilibrium(ReducedDynamics(robot), robot.nominal_arm).x;
-  robot.payload_mass = 1;
   const RobotParameters frozen = withFrozenArm(robot, robot.nominal_arm);
   EXPECT_NEAR(frozen.totalMass(), mass, 1e-8);
   EXPECT_NEAR(findEquilibrium(ReducedDynamics(frozen), robot.nominal_arm).x[kPitch], rest[kPitch], 1e-9);
@@ -147,6 +147,23 @@ TEST(DecoupledLaw, TheBaseDoesNotNoticeWhatTheArmDoes) {
   EXPECT_EQ(still.torque.head<3>(), moving.torque.head<3>());
   EXPECT_TRUE(moving.feedback.topRows<3>().middleCols<3>(kArm1).isZero(0));
   EXPECT_GT(still.torque.head<3>().norm(), 0.01);
+}
+
+TEST(DecoupledLaw, TheArmNoticesTheBaseOnlyWhereAskedTo) {
+  const RobotParameters robot = exampleRobot();
+  const StateVector rest = findEquilibrium(ReducedDynamics(robot), robot.nominal_arm).x;
+  StateVector rolled = rest;
+  rolled[kBallX] += 0.1;
+  const auto armRates = [&](const StateVector& x, const std::string& base) {
+    const auto law = decoupled(robot, kConfig + ("  inverse_kinematics: {base: " + base + "}\n"));
+    law->plan(kSimStart, x, JointVector::Zero());
+    law->activatePlan();
+    PolicySample out;
+    law->sample(kSimStart, out);
+    return Vector3(out.joint_velocity.tail<3>());
+  };
+  EXPECT_EQ(armRates(rest, "task"), armRates(rolled, "task"));
+  EXPECT_GT((armRates(rest, "estimated") - armRates(rolled, "estimated")).norm(), 0.01);
 }
 
 TEST(DecoupledLaw, ItsIntegralTakesUpALoadNobodyToldItOf) {
