@@ -96,12 +96,10 @@ WholeBodyCost::WholeBodyCost(const RobotParameters& robot, const Constraints& co
       cos_tilt_limit_(std::cos(constraints.tilt_limit)) {}
 
 template <bool kExpand>
-void WholeBodyCost::stateCost(const StateVector& x, const ReducedDynamics::EndEffector& tip,
-                              const EndEffectorLinearization* by_x, const Tasks& tasks,
-                              double share, CostTerms& terms, StateExpansion* out) const {
+void WholeBodyCost::endEffectorCost(const ReducedDynamics::EndEffector& tip,
+                                    const EndEffectorLinearization* by_x, const Tasks& tasks,
+                                    double share, CostTerms& terms, StateExpansion* out) const {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-  // End-effector pose and twist.
   const OrientationError turn = orientationError(tasks.R_WE, tip.R_WE);
   const Vector3 p_error = tip.p_WE - tasks.p_WE;
   Vector6 twist_error;
@@ -145,8 +143,11 @@ void WholeBodyCost::stateCost(const StateVector& x, const ReducedDynamics::EndEf
       addRowsGradient(along_nu, scaled_error, *out, kPositionDim);
     }
   }
+}
 
-  // Tasks that are coordinates themselves.
+template <bool kExpand>
+void WholeBodyCost::coordinateCost(const StateVector& x, const Tasks& tasks, double share,
+                                   CostTerms& terms, StateExpansion* out) const {
   const auto square = [&](int i, double weight, double target, CostTerm term) {
     const double w = share * weight, e = x[i] - target;
     terms.value[term] += 0.5 * w * e * e;
@@ -167,8 +168,12 @@ void WholeBodyCost::stateCost(const StateVector& x, const ReducedDynamics::EndEf
     square(kArm1 + i, tasks.arm_position_weight[i], tasks.arm_position[i], kArmPositionCost);
     square(kNu + kArmRate1 + i, tasks.arm_rate_weight[i], 0, kArmRateCost);
   }
+}
 
-  // Limits of the arm and of the tilt.
+template <bool kExpand>
+void WholeBodyCost::armLimitCost(const StateVector& x, double share, CostTerms& terms,
+                                 StateExpansion* out) const {
+  constexpr int kNu = kPositionDim;
   const auto expandAt = [&](int i, const TwoSided& d) {
     if constexpr (kExpand) {
       out->H(i, i) += share * d.second;
@@ -185,7 +190,11 @@ void WholeBodyCost::stateCost(const StateVector& x, const ReducedDynamics::EndEf
   }
   terms.value[kArmPositionLimitCost] += share * position.value();
   terms.value[kArmRateLimitCost] += share * rate.value();
+}
 
+template <bool kExpand>
+void WholeBodyCost::tiltLimitCost(const StateVector& x, double share, CostTerms& terms,
+                                  StateExpansion* out) const {
   // h = (cos tilt - cos limit) / sin limit: the margin in rad near the limit, smooth upright.
   const double cos_pitch = std::cos(x[kPitch]), cos_roll = std::cos(x[kRoll]);
   const double cos_tilt = cos_pitch * cos_roll;
@@ -203,6 +212,16 @@ void WholeBodyCost::stateCost(const StateVector& x, const ReducedDynamics::EndEf
     out->H(kRoll, kRoll) += share * (d.second * h_roll * h_roll + curvature);
     out->H(kRoll, kPitch) += share * d.second * h_pitch * h_roll;
   }
+}
+
+template <bool kExpand>
+void WholeBodyCost::stateCost(const StateVector& x, const ReducedDynamics::EndEffector& tip,
+                              const EndEffectorLinearization* by_x, const Tasks& tasks,
+                              double share, CostTerms& terms, StateExpansion* out) const {
+  endEffectorCost<kExpand>(tip, by_x, tasks, share, terms, out);
+  coordinateCost<kExpand>(x, tasks, share, terms, out);
+  armLimitCost<kExpand>(x, share, terms, out);
+  tiltLimitCost<kExpand>(x, share, terms, out);
 }
 
 template <bool kExpand>

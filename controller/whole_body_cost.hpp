@@ -63,6 +63,19 @@ class WholeBodyCost {
 
  private:
   template <bool kExpand>
+  void endEffectorCost(const ReducedDynamics::EndEffector& tip,
+                       const EndEffectorLinearization* by_x, const Tasks& tasks, double share,
+                       CostTerms& terms, StateExpansion* out) const;
+  template <bool kExpand>
+  void coordinateCost(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms,
+                      StateExpansion* out) const;
+  template <bool kExpand>
+  void armLimitCost(const StateVector& x, double share, CostTerms& terms,
+                    StateExpansion* out) const;
+  template <bool kExpand>
+  void tiltLimitCost(const StateVector& x, double share, CostTerms& terms,
+                     StateExpansion* out) const;
+  template <bool kExpand>
   void stateCost(const StateVector& x, const ReducedDynamics::EndEffector& tip,
                  const EndEffectorLinearization* by_x, const Tasks& tasks, double share,
                  CostTerms& terms, StateExpansion* out) const;
