@@ -188,9 +188,8 @@ void BenchMaster::writeOutputs(const BenchCommand& command) noexcept {
   for (std::size_t i = 0; i < kDriveCount; ++i) {
     const DriveConfig& config = config_.drives[i];
     Drive& d = drives_[i];
-    // A statusword that did not come confirms nothing.
-    const std::uint16_t known = d.stale_cycles == 0 ? d.statusword : std::uint16_t{0};
-    const std::uint16_t controlword = d.power.next(known);
+    const std::uint16_t controlword =
+        d.stale_cycles == 0 ? d.power.next(d.statusword) : d.power.hold();
     const bool enabled =
         controlword == kEnableOperation && d.power.state() == DriveState::kOperationEnabled;
     d.sent_torque = enabled ? config.scaling.torqueCounts(command.torque[i]) : 0;

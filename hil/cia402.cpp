@@ -92,9 +92,20 @@ std::uint16_t DrivePowerSequence::next(std::uint16_t statusword) noexcept {
   const DriveState now = driveState(statusword);
   waited_ = now == state_ ? waited_ + 1 : 0;
   state_ = now;
-  if (now == DriveState::kFault) return leaveFault();
-  if (reset_ == Reset::kHigh) reset_ = Reset::kNone;
+  if (now != DriveState::kFault && reset_ == Reset::kHigh) reset_ = Reset::kNone;
+  last_ = now == DriveState::kFault ? leaveFault() : towardsGoal(now);
+  return last_;
+}
 
+std::uint16_t DrivePowerSequence::hold() noexcept {
+  const bool has_torque = last_ == kEnableOperation;
+  if (goal_ == DriveGoal::kVoltageOff) last_ = kDisableVoltage;
+  if (goal_ == DriveGoal::kQuickStop) last_ = has_torque ? kQuickStopCommand : kDisableVoltage;
+  if (goal_ == DriveGoal::kSwitchedOn && has_torque) last_ = kSwitchOn;
+  return last_;
+}
+
+std::uint16_t DrivePowerSequence::towardsGoal(DriveState now) noexcept {
   if (goal_ == DriveGoal::kVoltageOff) return kDisableVoltage;
   if (goal_ == DriveGoal::kQuickStop) {
     const bool moving = now == DriveState::kOperationEnabled || now == DriveState::kQuickStopActive;

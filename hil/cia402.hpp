@@ -54,6 +54,9 @@ class DrivePowerSequence {
 
   /// The controlword to send after this statusword.
   std::uint16_t next(std::uint16_t statusword) noexcept;
+  /// The controlword to send where no statusword came: the last one, since nothing confirms a step
+  /// further up; but a goal further down counts at once.
+  std::uint16_t hold() noexcept;
   bool atGoal() const noexcept;
   DriveState state() const noexcept { return state_; }
   /// Statuswords since the state or the goal last changed: how long a transition is taking.
@@ -62,11 +65,13 @@ class DrivePowerSequence {
  private:
   enum class Reset : std::uint8_t { kNone, kWanted, kLow, kHigh };
   std::uint16_t leaveFault() noexcept;
+  std::uint16_t towardsGoal(DriveState now) noexcept;
 
   DriveGoal goal_ = DriveGoal::kVoltageOff;
   DriveState state_ = DriveState::kUnknown;
   Reset reset_ = Reset::kNone;
   int waited_ = 0;
+  std::uint16_t last_ = kDisableVoltage;  ///< controlword given out last
 };
 
 }  // namespace ballbot

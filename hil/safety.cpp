@@ -73,7 +73,9 @@ void Safety::latch(BenchFault fault) noexcept {
 }
 
 SafetyAction Safety::decide(const Events& e) noexcept {
-  if (e.fault != BenchFault::kNone) latch(e.fault);
+  // An arm that sinks into its limit while the bench stops asks for what is being done already.
+  const bool under_way = stopping_ && state_ == SafetyState::kEnabled && dampsFirst(e.fault);
+  if (e.fault != BenchFault::kNone && !under_way) latch(e.fault);
   switch (state_) {
     case SafetyState::kFault:
       return damping_left_-- > 0 ? SafetyAction::kDamp : SafetyAction::kNoVoltage;

@@ -40,6 +40,7 @@ void SteppedRunner::actuate() noexcept {
 // The clock stands still between calls, so the stop is carried to its end here.
 void SteppedRunner::throwIfFault() {
   if (bench_.safety().state() != SafetyState::kFault) return;
+  wants_release_ = false;
   wishes_.command = nullptr;
   while (bench_.safety().action() != SafetyAction::kNoVoltage) {
     sense();
@@ -54,6 +55,7 @@ void SteppedRunner::throwIfFault() {
 
 void SteppedRunner::engage() {
   throwIfFault();
+  wants_release_ = true;
   if (!running_) {
     bringUp(bench_, io_, patience_ / 100);
     running_ = true;
@@ -95,7 +97,8 @@ const BenchSample& SteppedRunner::sample(std::int64_t cycle) {
 }
 
 void SteppedRunner::release() noexcept {
-  if (!running_) return;
+  if (!running_ || !wants_release_) return;
+  wants_release_ = false;
   wishes_.stop = true;
   wishes_.command = nullptr;
   int left = kFarewellCycles;

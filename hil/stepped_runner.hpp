@@ -36,6 +36,7 @@ class SteppedRunner final : public BenchRunner {
   BenchCommand command_;
   std::int64_t cycle_ = 0;
   bool running_ = false, actuated_ = false;
+  bool wants_release_ = false;  ///< drives may have voltage that nobody has taken away yet
 };
 
 }  // namespace ballbot

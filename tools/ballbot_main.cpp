@@ -30,6 +30,9 @@ int main(int argc, char** argv) {
   addReproduceCommand(program, result);
   addBodeCommand(program, result);
   addViewCommand(program, result);
+  addDrivesCommand(program, result);
+  addHilCommand(program, result);
+  addIdentifyCommand(program, result);
   addDoctorCommand(program, result);
 
   try {

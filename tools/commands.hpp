@@ -19,6 +19,9 @@ void addEstimateCommand(CLI::App& program, ExitCode& result);
 void addReproduceCommand(CLI::App& program, ExitCode& result);
 void addBodeCommand(CLI::App& program, ExitCode& result);
 void addViewCommand(CLI::App& program, ExitCode& result);
+void addDrivesCommand(CLI::App& program, ExitCode& result);
+void addHilCommand(CLI::App& program, ExitCode& result);
+void addIdentifyCommand(CLI::App& program, ExitCode& result);
 void addDoctorCommand(CLI::App& program, ExitCode& result);
 
 }  // namespace ballbot

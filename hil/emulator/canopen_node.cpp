@@ -256,6 +256,13 @@ void CanopenNode::onTime(std::int64_t now_ns) {
   }
 }
 
+void CanopenNode::restartTimers() {
+  next_heartbeat_ns_ = now_ns_;
+  consumers_ = {};
+  sent_ns_.fill(now_ns_);
+  for (Receive& slot : receive_) slot.watched = false;
+}
+
 void CanopenNode::onHeartbeat(int producer, std::uint8_t state) {
   for (int i = 0; i < 2; ++i) {
     const std::int64_t entry = dictionary_.value(0x1016, static_cast<std::uint8_t>(i + 1));

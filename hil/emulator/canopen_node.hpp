@@ -40,6 +40,8 @@ class CanopenNode {
   void onSync();
   /// @param now_ns never goes back
   void onTime(std::int64_t now_ns);
+  /// Heartbeat and all watches begin anew, as if this were the moment of their set-up.
+  void restartTimers();
 
   /// What it has to say, in order; the caller empties it.
   std::vector<CanFrame>& outbox() { return outbox_; }

@@ -9,6 +9,13 @@ namespace ballbot {
 namespace {
 
 constexpr std::int64_t kRobotGrid = 100'000;  // the robot moves in steps of at least this [ns]
+constexpr double kGravity = 9.81;
+
+/// What an accelerometer in the base feels while it stands still: R_WB^T (0, 0, g).
+std::array<double, 3> restForce(double pitch, double roll) {
+  return {-kGravity * std::sin(pitch), kGravity * std::cos(pitch) * std::sin(roll),
+          kGravity * std::cos(pitch) * std::cos(roll)};
+}
 
 }  // namespace
 
@@ -19,7 +26,9 @@ EmulatedBench::EmulatedBench(const EmulatorConfig& config, std::unique_ptr<Parti
                                      config.gyro_resolution)),
       outbox_(static_cast<std::size_t>(config.bus_count)),
       pending_syncs_(outbox_.size()),
-      frozen_(outbox_.size()) {
+      frozen_(outbox_.size()),
+      heard_(outbox_.size()),
+      syncs_held_back_(outbox_.size()) {
   for (const EmulatedDriveParameters& p : config.drives) {
     drives_.push_back(std::make_unique<DriveNode>(p));
   }
@@ -45,6 +54,7 @@ bool EmulatedBench::anyEnergized() const {
 void EmulatedBench::onFrame(int bus, const CanFrame& frame) {
   const auto b = static_cast<std::size_t>(bus);
   if (frozen_[b]) return;
+  heard_[b] = true;
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     if (config_.drive_bus[i] == bus) drives_[i]->onFrame(frame);
   }
@@ -69,7 +79,11 @@ void EmulatedBench::onFrame(int bus, const CanFrame& frame) {
   syncAll();
 }
 
-bool EmulatedBench::busIsNeeded(int bus) const { return !frozen_[static_cast<std::size_t>(bus)]; }
+// A bus nobody ever spoke on has no master whose SYNC could be missing.
+bool EmulatedBench::busIsNeeded(int bus) const {
+  const auto b = static_cast<std::size_t>(bus);
+  return heard_[b] && !frozen_[b];
+}
 
 // One cycle of stepped time, once every bus that still works has seen its SYNC.
 void EmulatedBench::syncAll() {
@@ -77,6 +91,7 @@ void EmulatedBench::syncAll() {
     if (busIsNeeded(b) && pending_syncs_[static_cast<std::size_t>(b)] == 0) return;
   }
   std::fill(pending_syncs_.begin(), pending_syncs_.end(), 0);
+  startSyncClock();
   ++syncs_;
   for (const FaultOrder& order : config_.faults) {
     if (order.at_cycle == syncs_) inject(order);
@@ -88,9 +103,7 @@ void EmulatedBench::syncAll() {
   readRobot();
   // Who watches the master speaks first; then everybody answers the SYNC. So whatever belongs to a
   // cycle comes before the last answer that a master waits for.
-  for (auto& drive : drives_) drive->onTime(now_ns_);
-  imu_->onTime(now_ns_);
-  collect();
+  tellTime();
   for (int b = 0; b < config_.bus_count; ++b) sampleBus(b);
   collect();
 }
@@ -101,12 +114,37 @@ void EmulatedBench::advanceTo(std::int64_t now_ns) {
   const std::int64_t step = grid - now_ns_;
   now_ns_ = grid;
   moveRobot(step);
+  tellTime();
+}
+
+void EmulatedBench::idle(std::int64_t elapsed_ns) {
+  sync_is_clock_ = sync_is_clock_ && anyOperational();
+  if (sync_is_clock_) return;
+  now_ns_ += elapsed_ns;
+  readOutputs();  // ramps of stops end, but the robot's time is that of SYNC alone
+  tellTime();
+}
+
+// What wall time has left in the nodes' timers must not show in what follows.
+void EmulatedBench::startSyncClock() {
+  if (sync_is_clock_) return;
+  sync_is_clock_ = true;
+  for (auto& drive : drives_) drive->restartTimers();
+  imu_->restartTimers();
+}
+
+bool EmulatedBench::anyOperational() const {
+  return imu_->operational() || std::any_of(drives_.begin(), drives_.end(),
+                                            [](const auto& d) { return d->operational(); });
+}
+
+void EmulatedBench::tellTime() {
   for (auto& drive : drives_) drive->onTime(now_ns_);
   imu_->onTime(now_ns_);
   collect();
 }
 
-void EmulatedBench::moveRobot(std::int64_t step_ns) {
+ActuatorCommand EmulatedBench::readOutputs() {
   ActuatorCommand command;
   largest_torque_ = 0;
   for (int i = 0; i < 6; ++i) {
@@ -118,6 +156,11 @@ void EmulatedBench::moveRobot(std::int64_t step_ns) {
     command.damping[i] = out.damping;
     largest_torque_ = std::max(largest_torque_, std::abs(out.torque));
   }
+  return command;
+}
+
+void EmulatedBench::moveRobot(std::int64_t step_ns) {
+  const ActuatorCommand command = readOutputs();
   if (!robot_runs_) return;
   robot_->doStep(simTimeFromNs(robot_ns_), SimDuration{step_ns}, command);
   robot_ns_ += step_ns;
@@ -134,20 +177,32 @@ void EmulatedBench::readRobot() {
         {s.joint_angle[i], s.motor_angle[i], velocity, s.joint_torque[i]});
   }
   std::array<double, 3> accel{s.accel_B[0], s.accel_B[1], s.accel_B[2]};
+  if (const auto truth = robot_->truth(); truth && s.imu_count == 0) {
+    accel = restForce(truth->state[kPitch], truth->state[kRoll]);
+  }
   std::array<double, 3> gyro{s.gyro_WB_B[0], s.gyro_WB_B[1], s.gyro_WB_B[2]};
   if (lean_ != 0) {  // as if the base lay over to this angle and kept turning
-    accel = {std::sin(lean_) * 9.81, 0, std::cos(lean_) * 9.81};
+    accel = restForce(-lean_, 0);
     gyro = {0, -10, 0};
   }
   // An IMU samples while the robot still stands, too.
   imu_->setSample(s.imu_count + idle_syncs_, accel, gyro);
 }
 
+bool EmulatedBench::holdBackSync(int bus) {
+  int& left = syncs_held_back_[static_cast<std::size_t>(bus)];
+  if (left == 0) return false;
+  --left;
+  return true;
+}
+
 void EmulatedBench::sampleBus(int bus) {
-  bool enabled = false;
+  if (holdBackSync(bus)) return;
+  bool enabled = false;  // as reported, so before outputs of this SYNC act
   for (std::size_t i = 0; i < drives_.size(); ++i) {
+    if (config_.drive_bus[i] != bus) continue;
     enabled = enabled || drives_[i]->enabled();
-    if (config_.drive_bus[i] == bus) drives_[i]->onSync();
+    drives_[i]->onSync();
   }
   if (config_.imu_bus == bus) imu_->onSync();
   robot_runs_ = robot_runs_ || enabled;
@@ -220,6 +275,11 @@ void EmulatedBench::inject(const FaultOrder& order) {
     case EmulatedFault::kFrozenBus:
       frozen_[static_cast<std::size_t>(config_.drive_bus[static_cast<std::size_t>(order.drive)])] =
           true;
+      break;
+    case EmulatedFault::kSyncHeldBack:
+      syncs_held_back_[static_cast<std::size_t>(
+          config_.drive_bus[static_cast<std::size_t>(order.drive)])] =
+          static_cast<int>(order.value);
       break;
     case EmulatedFault::kImuLost:
       imu_->powerOff();

@@ -13,13 +13,16 @@
 namespace ballbot {
 
 class Participant;
+struct ActuatorCommand;
 
 /// Six emulated drives and an IMU on one or two buses, with a robot (or a test rig) behind them. No
 /// socket and no clock.
 ///
 /// Stepped: SYNC is the clock. Once a SYNC has come on every bus, time moves by one cycle: the
 /// robot with the torques in force, then everybody samples, answers, and takes over synchronous
-/// outputs. In real time the caller moves time, and a SYNC makes the nodes of its bus sample.
+/// outputs. Until the first SYNC, and once no node is operational any more, time passes by the
+/// wall while the buses are silent, so that heartbeats come: nothing then depends on when.
+/// In real time the caller moves time, and a SYNC makes the nodes of its bus sample.
 ///
 /// The robot's own time begins one cycle after a drive has reported "operation enabled" for the
 /// first time: until then it stands where it stands, as in a stand.
@@ -33,6 +36,8 @@ class EmulatedBench {
   void onFrame(int bus, const CanFrame& frame);
   /// Real time: the time since power-on.
   void advanceTo(std::int64_t now_ns);
+  /// Stepped: nothing was heard for `elapsed_ns` of wall time.
+  void idle(std::int64_t elapsed_ns);
   /// What the nodes of a bus say; the caller empties it.
   std::deque<CanFrame>& outbox(int bus) { return outbox_[static_cast<std::size_t>(bus)]; }
 
@@ -52,10 +57,15 @@ class EmulatedBench {
  private:
   void syncAll();
   void sampleBus(int bus);
+  void startSyncClock();
+  bool anyOperational() const;
+  void tellTime();
+  ActuatorCommand readOutputs();
   void moveRobot(std::int64_t step_ns);
   void readRobot();
   void collect();
   bool busIsNeeded(int bus) const;
+  bool holdBackSync(int bus);
 
   EmulatorConfig config_;
   std::unique_ptr<Participant> robot_;
@@ -64,8 +74,10 @@ class EmulatedBench {
   std::vector<std::deque<CanFrame>> outbox_;
   std::vector<int> pending_syncs_;
   std::vector<bool> frozen_;
+  std::vector<bool> heard_;           ///< a frame has come over this bus
+  std::vector<int> syncs_held_back_;  ///< still to be kept from the nodes of a bus
   std::int64_t syncs_ = 0, idle_syncs_ = 0, now_ns_ = 0, robot_ns_ = 0;
-  bool robot_runs_ = false;
+  bool robot_runs_ = false, sync_is_clock_ = false;
   double largest_torque_ = 0;
   double runaway_[6] = {};
   double lean_ = 0, largest_tilt_ = 0;

@@ -28,6 +28,7 @@ FaultOrder readFault(ConfigReader& in) {
                                      {"position_jump", F::kPositionJump},
                                      {"runaway", F::kRunaway},
                                      {"frozen_bus", F::kFrozenBus},
+                                     {"sync_held_back", F::kSyncHeldBack},
                                      {"imu_lost", F::kImuLost},
                                      {"imu_frozen", F::kImuFrozen},
                                      {"tilt", F::kTilt},

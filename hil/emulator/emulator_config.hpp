@@ -27,7 +27,8 @@ enum class EmulatedFault {
   kStuckEncoder,  ///< position freezes, velocity goes on
   kPositionJump,  ///< by `value` rad
   kRunaway,       ///< velocity feedback of `value` rad/s
-  kFrozenBus,     ///< nothing passes on bus `drive`, either way
+  kFrozenBus,     ///< nothing passes on the bus of `drive`, either way
+  kSyncHeldBack,  ///< the next `value` SYNCs do not reach the bus of `drive`
   kImuLost,       ///< the IMU is dead
   kImuFrozen,     ///< it sends the same sample for ever
   kTilt,          ///< the IMU feels a lean of `value` rad

@@ -1,5 +1,6 @@
 #include "hil/emulator/serve_drives.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 
@@ -14,7 +15,9 @@ using WallClock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kTick = milliseconds(1);  // of time without frames, in real time
+constexpr nanoseconds kTick = milliseconds(1);  // of time without frames
+// Stepped: after so long without a frame time passes by the wall, where SYNC is not the clock.
+constexpr nanoseconds kSilence = milliseconds(100);
 
 void sendAll(EmulatedBench& bench, const std::vector<std::unique_ptr<CanBus>>& buses) {
   for (std::size_t b = 0; b < buses.size(); ++b) {
@@ -53,14 +56,24 @@ std::vector<std::unique_ptr<CanBus>> openEmulatedBuses(
 void serveDrives(EmulatedBench& bench, const EmulatorConfig& config,
                  const std::vector<std::unique_ptr<CanBus>>& buses, const std::atomic<bool>* stop) {
   const WallClock::time_point start = WallClock::now();
+  WallClock::time_point heard = start, last = start;
   bench.powerOn();
   sendAll(bench, buses);
   CanFrame frame;
   while (stop == nullptr || !stop->load()) {
-    waitForAny(buses, config.stepped ? milliseconds(100) : kTick);
-    if (!config.stepped) bench.advanceTo((WallClock::now() - start) / nanoseconds(1));
+    waitForAny(buses, kTick);
+    const WallClock::time_point now = WallClock::now();
+    if (!config.stepped) {
+      bench.advanceTo((now - start) / nanoseconds(1));
+    } else if (now - heard > kSilence) {
+      bench.idle((now - std::max(last, heard)) / nanoseconds(1));
+    }
+    last = now;
     for (std::size_t b = 0; b < buses.size(); ++b) {
-      while (buses[b]->receive(frame)) bench.onFrame(static_cast<int>(b), frame);
+      while (buses[b]->receive(frame)) {
+        bench.onFrame(static_cast<int>(b), frame);
+        heard = now;
+      }
     }
     sendAll(bench, buses);
   }

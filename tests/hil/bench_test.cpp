@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "tests/hil/support/bench_fixture.hpp"
-#include "tests/hil/support/random_bytes.hpp"
 
 namespace ballbot {
 namespace {
@@ -26,6 +25,26 @@ TEST(Bench, ConfiguresEnablesAndGivesTorque) {
   EXPECT_GT(s.joint_velocity[0], 0.1);
   EXPECT_GT(s.imu_count, 90);
   EXPECT_NEAR(s.accel[2], 9.81, 0.005);
+}
+
+// Up to stale_cycles: one late frame is no reason to drop a robot.
+TEST(Bench, GoesOnOverTwoMissingAnswersAndStopsAtTheThird) {
+  for (const int missing : {1, 2, 3}) {
+    BenchFixture f;
+    BenchCommand command;
+    command.torque.fill(1);
+    f.wishes.command = &command;
+    ASSERT_TRUE(f.engage()) << f.bench.faultText();
+    for (int i = 0; i < 60; ++i) f.cycle();
+    f.drives.inject({0, EmulatedFault::kSyncHeldBack, 4, static_cast<double>(missing)});
+    for (int i = 0; i < 6; ++i) {
+      f.cycle();
+      if (missing == 3) continue;
+      EXPECT_EQ(f.drives.largestTorque(), 1) << missing << " missing, cycle " << i;
+    }
+    EXPECT_EQ(f.bench.safety().state(), missing < 3 ? SafetyState::kEnabled : SafetyState::kFault)
+        << f.bench.faultText();
+  }
 }
 
 TEST(Bench, TorqueGrowsFromZeroAfterEngaging) {
@@ -115,39 +134,6 @@ TEST(Bench, AMissingNodeIsNamed) {
   f.bench.actuate({});
   EXPECT_THAT(f.bench.faultText(),
               HasSubstr("node 9 does not answer a reset. Is it powered, and is its node-ID 9?"));
-}
-
-// Random frames from the bus at a master in all phases: no crash, and never torque.
-TEST(BenchFuzz, RandomFramesEnableNothing) {
-  RandomBytes random(11);
-  BenchFixture f;
-  ASSERT_TRUE(f.configure());
-  f.wishes.prepare = f.wishes.engage = true;
-  f.buses[0]->pull();
-  f.buses[1]->pull();
-  f.wishes.bus_down = false;
-  for (std::int64_t i = 0; i < 300'000; ++i) {
-    CanFrame frame = random.frame();
-    const std::uint32_t bases[] = {0x080, 0x180, 0x280, 0x580, 0x700};
-    if (random.below(4) != 0) {
-      frame.extended = false;
-      frame.id = bases[random.below(5)] + 1 + random.below(7);
-    }
-    f.bench.master().onFrame(static_cast<int>(random.below(2)), frame);
-    if (i % 30 != 0) continue;
-    f.bench.master().beginCycle();
-    f.bench.master().endCycle();
-    f.bench.observe();
-    f.bench.actuate(f.wishes);
-    for (int b = 0; b < 2; ++b) {
-      for (const CanFrame& out : f.bench.master().outbox(b)) {
-        if (out.id > 0x200 && out.id < 0x280) {
-          ASSERT_NE(out.data[0] & 0x0F, 0x0F) << "enabled";
-        }
-      }
-      f.bench.master().outbox(b).clear();
-    }
-  }
 }
 
 }  // namespace

@@ -39,6 +39,27 @@ TEST(Cia402, EveryStatuswordHasAtMostOneStateAndOnlyItsOwnBitsDecide) {
 constexpr DriveGoal kGoals[] = {DriveGoal::kVoltageOff, DriveGoal::kSwitchedOn, DriveGoal::kEnabled,
                                 DriveGoal::kQuickStop};
 
+// While no statusword comes nothing is confirmed: no way up, but always a way down.
+TEST(DrivePowerSequence, HoldsWhatItSaidLastUnlessTheGoalIsLower) {
+  DrivePowerSequence p;
+  p.setGoal(DriveGoal::kEnabled);
+  EXPECT_EQ(p.hold(), kDisableVoltage);
+  EXPECT_EQ(p.next(0x0240), kShutdown);
+  EXPECT_EQ(p.hold(), kShutdown);
+  EXPECT_EQ(p.next(0x0221), kSwitchOn);
+  EXPECT_EQ(p.next(0x0223), kEnableOperation);
+  EXPECT_EQ(p.next(0x0227), kEnableOperation);
+  EXPECT_EQ(p.hold(), kEnableOperation);
+  EXPECT_EQ(p.state(), DriveState::kOperationEnabled);
+  p.setGoal(DriveGoal::kSwitchedOn);
+  EXPECT_EQ(p.hold(), kSwitchOn);
+  p.next(0x0227);
+  p.setGoal(DriveGoal::kVoltageOff);
+  EXPECT_EQ(p.hold(), kDisableVoltage);
+  p.setGoal(DriveGoal::kEnabled);
+  EXPECT_EQ(p.hold(), kDisableVoltage) << "not back up without a statusword";
+}
+
 TEST(DrivePowerSequence, CommandsAtMostTheNextTransitionForEveryStatuswordAndGoal) {
   // Which commands CiA 402 lets follow a state on the way up; disable voltage is always allowed.
   const std::map<DriveState, std::set<int>> allowed = {

@@ -49,6 +49,22 @@ TEST(Safety, GoesFromDisabledOverReadyToEnabled) {
   EXPECT_EQ(s.followed(), 1);
 }
 
+// A stop brakes with little torque, so the arm may well sink into a limit on the way.
+TEST(Safety, AStopEndsDisabledWhateverMilderFaultIsMetOnTheWay) {
+  for (int n = 1; n <= static_cast<int>(kLast); ++n) {
+    const auto fault = static_cast<BenchFault>(n);
+    Safety s = following();
+    Safety::Events e = calm();
+    e.engage = e.drives_enabled = e.stop = true;
+    EXPECT_EQ(s.step(e), Action::kDamp);
+    e.fault = fault;
+    EXPECT_EQ(s.step(e), dampsFirst(fault) ? Action::kDamp : Action::kNoVoltage) << toText(fault);
+    for (int i = 0; i < 3; ++i) s.step(e);
+    EXPECT_EQ(s.action(), Action::kNoVoltage) << toText(fault);
+    EXPECT_EQ(s.state(), dampsFirst(fault) ? State::kDisabled : State::kFault) << toText(fault);
+  }
+}
+
 TEST(Safety, EngagesOnlyAtRest) {
   Safety s({4, 3});
   Safety::Events e = calm();

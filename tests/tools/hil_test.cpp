@@ -1,0 +1,150 @@
+// The bench as a person runs it: programs of their own, joined by LCM and pseudo terminals.
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "tests/tools/program.hpp"
+
+namespace ballbot {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+const std::string kConfigs = std::string(BALLBOT_SOURCE_DIR) + "/configs/";
+const std::string kBench = kConfigs + "hil/bench.yaml";
+
+/// `ballbot drives` on links of its own.
+class Drives {
+ public:
+  explicit Drives(std::vector<std::string> extra = {}) {
+    std::vector<std::string> arguments{"drives", kBench, "--json"};
+    for (const std::string n : {"0", "1"}) {
+      const std::string link = base() + n;
+      more_.insert(more_.end(), {"--set", "buses." + n + ".address=\"slcan:" + link + "\""});
+      arguments.insert(arguments.end(), {"--set", "emulator.buses." + n + ".link=" + link});
+    }
+    more_.insert(more_.end(), extra.begin(), extra.end());
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    program_ = std::make_unique<Program>(arguments);
+    for (int i = 0; i < 600 && ::access((base() + "1").c_str(), F_OK) != 0; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
+  static std::string base() { return "/tmp/ballbot-test-can" + std::to_string(::getpid()) + "-"; }
+  /// Arguments with which other verbs find these drives.
+  std::vector<std::string> with(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), more_.begin(), more_.end());
+    return arguments;
+  }
+  Json finish() {
+    program_->signal(SIGINT);
+    const Finished f = program_->finish();
+    EXPECT_EQ(f.exit_code, 0) << f.err;
+    return Json::parse(f.out);
+  }
+
+ private:
+  std::vector<std::string> more_;
+  std::unique_ptr<Program> program_;
+};
+
+TEST(BenchPrograms, ControllerHilAndDrivesBalanceTheRobot) {
+  Drives drives;
+  const std::string channel = "HILTEST" + std::to_string(::getpid());
+  Program hil(drives.with({"hil", kBench, "--json", "--channel", channel}));
+  const TemporaryFolder folder;
+  const Finished controller =
+      runBallbot({"controller", kConfigs + "scenarios/bench_balance.yaml", "--channel", channel,
+                  "--out", folder / "run", "--no-report", "--quiet"});
+  EXPECT_EQ(controller.exit_code, 0) << controller.err;
+  const Finished bench = hil.finish();
+  EXPECT_EQ(bench.exit_code, 0) << bench.err;
+  EXPECT_THAT(bench.err, HasSubstr("this program is no emergency stop"));
+  const Json report = Json::parse(bench.out);
+  EXPECT_EQ(report["state"], "disabled");
+  EXPECT_EQ(report["fault"], "");
+  EXPECT_EQ(report["bad_pdos"], 0);
+  const Json robot = drives.finish();
+  EXPECT_GT(robot["robot_s"], 3.9);
+  // With the last 0.2 s, in which the bench only damps and the robot leans over.
+  EXPECT_LT(robot["largest_tilt_deg"], 10);
+  EXPECT_FALSE(robot["torque_on"]);
+}
+
+TEST(BenchPrograms, AFaultOfADriveEndsTheRunWithItsReason) {
+  Drives drives(
+      {"--set", "emulator.faults=[{at_cycle: 150, kind: emergency, drive: 2, value: 17168}]"});
+  const std::string channel = "HILFAULT" + std::to_string(::getpid());
+  Program hil(drives.with({"hil", kBench, "--channel", channel}));
+  const TemporaryFolder folder;
+  const Finished controller =
+      runBallbot({"controller", kConfigs + "scenarios/bench_balance.yaml", "--channel", channel,
+                  "--out", folder / "run", "--no-report", "--quiet"});
+  EXPECT_EQ(controller.exit_code, 3);
+  EXPECT_THAT(controller.err, HasSubstr("wheel 2: node 2: emergency 4310 (drive too hot)"));
+  EXPECT_EQ(hil.finish().exit_code, 3);
+  EXPECT_FALSE(drives.finish()["torque_on"]);
+}
+
+TEST(BenchPrograms, CheckFindsSevenNodesAndNamesWhatDiffers) {
+  Drives drives;
+  const Finished good = runBallbot(drives.with({"hil", kBench, "--check", "--json"}));
+  EXPECT_EQ(good.exit_code, 0) << good.out << good.err;
+  EXPECT_EQ(Json::parse(good.out)["nodes"].size(), 7U);
+  const Finished bad = runBallbot(
+      drives.with({"hil", kBench, "--check", "--set", "drive_defaults.rated_torque_Nm=10"}));
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_THAT(bad.out, HasSubstr("DIFFERS: rated torque [Nm] is 20, configured 10"));
+  drives.finish();
+}
+
+TEST(BenchPrograms, FaultTableHolds) {
+  const Finished f = runBallbot({"hil", "--faults", "--json"});
+  EXPECT_EQ(f.exit_code, 0) << f.out;
+  const Json table = Json::parse(f.out);
+  EXPECT_TRUE(table["held"]);
+  EXPECT_GE(table["rows"].size(), 20U);
+}
+
+TEST(BenchPrograms, IdentifyWritesConfigurationAndPicture) {
+  Drives drives(
+      {"--set", "emulator.rig={blocked: true, torque_bandwidth_Hz: 30, damping_ratio: 0.6}"});
+  const TemporaryFolder folder;
+  const std::string yaml = folder / "wheel.yaml", svg = folder / "wheel.svg";
+  const Finished f = runBallbot(
+      drives.with({"identify", kBench, "--drive", "2", "--out", yaml, "--figure", svg, "--json"}));
+  ASSERT_EQ(f.exit_code, 0) << f.err;
+  const Json fit = Json::parse(f.out)["second_order"];
+  EXPECT_NEAR(fit["natural_frequency_Hz"], 30, 0.05 * 30);
+  EXPECT_NEAR(fit["damping_ratio"], 0.6, 0.05);
+  const std::string text = readFile(yaml);
+  EXPECT_THAT(text, HasSubstr("torque_bandwidth_Hz: 30"));
+  EXPECT_THAT(text, HasSubstr("zero_rad_per_s: 75"));
+  EXPECT_TRUE(std::ifstream(svg).good());
+  drives.finish();
+}
+
+TEST(BenchPrograms, RealTimeBringsUpRunsAndStopsWithTheDrivesOff) {
+  Drives drives({"--set", "stepped=false", "--set", "emulator.rig={blocked: true}", "--set",
+                 "realtime={collect_us: 2000, act_us: 2200}", "--set",
+                 "safety={late_cycles: 100, stale_cycles: 100, heartbeat_timeout_ms: 2000, "
+                 "transition_timeout_ms: 5000, command_watchdog_ms: 5000}",
+                 "--set", "master_timeout_ms=1000", "--set", "output_deadline_ms=1000"});
+  const Finished f =
+      runBallbot(drives.with({"identify", kBench, "--drive", "1", "--record-s", "0.5", "--json"}));
+  ASSERT_EQ(f.exit_code, 0) << f.err;
+  EXPECT_GT(Json::parse(f.out)["second_order"]["bandwidth_Hz"], 1);
+  EXPECT_FALSE(drives.finish()["torque_on"]);
+}
+
+}  // namespace
+}  // namespace ballbot

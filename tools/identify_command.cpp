@@ -1,0 +1,128 @@
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/angle.hpp"
+#include "hil/identify_drive.hpp"
+#include "hil/identify_report.hpp"
+#include "hil/open_can_bus.hpp"
+#include "hil/realtime_runner.hpp"
+#include "hil/stepped_runner.hpp"
+#include "tools/bench_report.hpp"
+#include "tools/bench_scenario.hpp"
+#include "tools/commands.hpp"
+
+namespace ballbot {
+namespace {
+
+struct IdentifyArguments {
+  std::string config, out, figure;
+  std::vector<std::string> overrides;
+  ExcitationPlan plan;
+  int drive = 1;
+  bool json = false;
+};
+
+nlohmann::ordered_json responseJson(const TorqueResponse& r) {
+  nlohmann::ordered_json j;
+  j["bandwidth_Hz"] = r.bandwidth_Hz();
+  j["natural_frequency_Hz"] = r.natural_frequency / kTwoPi;
+  j["natural_frequency_sigma_Hz"] = r.natural_frequency_sigma / kTwoPi;
+  if (r.order == 2) {
+    j["damping_ratio"] = r.damping_ratio;
+    j["damping_ratio_sigma"] = r.damping_ratio_sigma;
+  }
+  j["delay_ms"] = 1e3 * r.delay;
+  j["delay_sigma_ms"] = 1e3 * r.delay_sigma;
+  j["rms_error"] = r.residual;
+  return j;
+}
+
+void writeIdentifiedFile(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  if (!file.flush()) throw OutputError(path + ": cannot be written");
+  fmt::print(stderr, "identify: wrote {}\n", path);
+}
+
+ExitCode identifyOnBench(IdentifyArguments a) {
+  const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
+  a.plan.drive = a.drive - 1;
+  std::vector<std::unique_ptr<CanBus>> owned;
+  std::vector<CanBus*> ends;
+  for (const BusConfig& bus : config.buses) {
+    owned.push_back(openCanBus(bus.address, bus.bitrate_kbps));
+    ends.push_back(owned.back().get());
+  }
+  std::unique_ptr<BenchRunner> runner;
+  if (config.stepped) {
+    runner = std::make_unique<SteppedRunner>(config, ends);
+  } else {
+    runner = std::make_unique<RealtimeRunner>(config, ends);
+  }
+  const std::string& name = config.drives[static_cast<std::size_t>(a.plan.drive)].name;
+  fmt::print(stderr, "identify: {} gets up to {} Nm for {:.3g} s. Block its joint.\n", name,
+             a.plan.amplitude_Nm + std::abs(a.plan.bias_Nm), a.plan.records * a.plan.record_s);
+  const Identification found = identifyDrive(*runner, a.plan);
+  if (!a.out.empty()) writeIdentifiedFile(a.out, identifiedYaml(name, found));
+  if (!a.figure.empty()) writeIdentifiedFile(a.figure, bodeSvg(name, found, config.cycleSeconds()));
+  if (a.json) {
+    nlohmann::ordered_json j;
+    j["drive"] = name;
+    j["first_order"] = responseJson(found.first);
+    j["second_order"] = responseJson(found.second);
+    for (const ResponsePoint& p : found.points) {
+      j["points"].push_back({{"frequency_Hz", p.frequency_Hz},
+                             {"gain", std::abs(p.value)},
+                             {"phase_deg", std::arg(p.value) * kDegPerRad}});
+    }
+    if (auto* realtime = dynamic_cast<RealtimeRunner*>(runner.get())) {
+      realtime->finish();
+      j["bench"] = benchJson(realtime->bench(), realtime->io());
+      j["realtime"] = realtimeJson(realtime->statistics());
+    }
+    fmt::print("{}\n", j.dump(2));
+  } else {
+    fmt::print("{}", identifiedYaml(name, found));
+  }
+  return ExitCode::kPassed;
+}
+
+}  // namespace
+
+void addIdentifyCommand(CLI::App& program, ExitCode& result) {
+  CLI::App* command =
+      program.add_subcommand("identify", "Excite one drive of a bench and fit its torque response");
+  const auto a = std::make_shared<IdentifyArguments>();
+  command->add_option("config", a->config, "Bench file, e.g. configs/hil/bench.yaml")->required();
+  command->add_option("--drive", a->drive, "1 to 3: wheels, 4 to 6: arm")->check(CLI::Range(1, 6));
+  command->add_option("--amplitude-Nm", a->plan.amplitude_Nm, "Peak of the sum of sines")
+      ->capture_default_str();
+  command->add_option("--bias-Nm", a->plan.bias_Nm, "Constant torque below it")
+      ->capture_default_str();
+  command->add_option("--low-Hz", a->plan.low_Hz, "Lowest frequency")->capture_default_str();
+  command->add_option("--high-Hz", a->plan.high_Hz, "Highest, below half the bus rate")
+      ->capture_default_str();
+  command->add_option("--record-s", a->plan.record_s, "Length of one period of the signal")
+      ->capture_default_str();
+  command->add_option("--out", a->out, "Write actuator and frequency-shaping values here (YAML)");
+  command->add_option("--figure", a->figure, "Draw the Bode picture here (SVG)");
+  command->add_option("--set", a->overrides, "path=value: change one value of the bench file")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_flag("--json", a->json, "Print fits and points as JSON");
+  command->footer(
+      "The joint must be blocked, or what is measured is the joint.\n"
+      "Example:\n"
+      "  ballbot identify configs/hil/bench.yaml --drive 1 --out wheel.yaml --figure wheel.svg\n"
+      "Exit codes: 0 fitted, 2 bad input, 3 the bench stopped or no fit.");
+  command->callback([&result, a] { result = identifyOnBench(*a); });
+}
+
+}  // namespace ballbot
