@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   addReproduceCommand(program, result);
   addBodeCommand(program, result);
   addViewCommand(program, result);
+  addFmuCommand(program, result);
   addDoctorCommand(program, result);
 
   try {

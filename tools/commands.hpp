@@ -19,6 +19,7 @@ void addEstimateCommand(CLI::App& program, ExitCode& result);
 void addReproduceCommand(CLI::App& program, ExitCode& result);
 void addBodeCommand(CLI::App& program, ExitCode& result);
 void addViewCommand(CLI::App& program, ExitCode& result);
+void addFmuCommand(CLI::App& program, ExitCode& result);
 void addDoctorCommand(CLI::App& program, ExitCode& result);
 
 }  // namespace ballbot
