@@ -2,52 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <numeric>
+#include <charconv>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/nearest_word.hpp"
 
 namespace ballbot {
 namespace {
 
-/// Levenshtein distance, to guess which key was meant.
-std::size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0u);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
-}
-
-/// The candidate someone who wrote `word` most likely meant: nearest by edits, where a shared
-/// beginning counts for more, because people leave the unit off.
-std::string nearest(const std::string& word, const std::set<std::string>& candidates) {
-  std::string best;
-  std::size_t best_distance = std::max<std::size_t>(3, word.size() / 2);
-  for (const std::string& c : candidates) {
-    const std::size_t distance = std::min(editDistance(word, c), editDistance(word, c.substr(0, word.size())) + 1);
-    if (distance < best_distance) {
-      best = c;
-      best_distance = distance;
-    }
-  }
-  return best;
-}
-
 bool parseNumber(const ConfigNode& node, double& value) {
   if (node.kind() != ConfigNode::Kind::kScalar || node.quoted() || node.text().empty()) return false;
-  char* end = nullptr;
-  value = std::strtod(node.text().c_str(), &end);
-  return *end == '\0';
+  // Not strtod: it obeys the locale of the process, and an FMU lives in other people's processes.
+  const char* begin = node.text().data();
+  const char* end = begin + node.text().size();
+  if (*begin == '+') ++begin;
+  const auto [stopped, error] = std::from_chars(begin, end, value);
+  return error == std::errc() && stopped == end;
 }
 
 std::string describe(const ConfigNode& node) {
@@ -106,7 +79,7 @@ const ConfigNode& ConfigReader::require(const std::string& key) {
   if (value) return *value;
   // A misspelt key shows up as one that is missing and one that is unknown: say both.
   for (const auto& entry : node_->entries()) {
-    if (known_.count(entry.first) == 0 && nearest(entry.first, {key}) == key) {
+    if (known_.count(entry.first) == 0 && nearestWord(entry.first, {key}) == key) {
       throw InputError(fmt::format("{}: unknown key '{}'; did you mean '{}'?",
                                    toText(entry.second.where()), entry.first, key));
     }
@@ -239,7 +212,7 @@ const ConfigNode* ConfigReader::raw(const std::string& key) {
 void ConfigReader::finish() const {
   for (const auto& [key, value] : node_->entries()) {
     if (known_.count(key)) continue;
-    const std::string guess = nearest(key, known_);
+    const std::string guess = nearestWord(key, known_);
     throw InputError(fmt::format(
         "{}: unknown key '{}'{}{}", toText(value.where()), key,
         path_.empty() ? "" : fmt::format(" in '{}'", path_),

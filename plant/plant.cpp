@@ -102,6 +102,15 @@ class Plant::Impl {
     observe();
   }
 
+  void setExternalForces(const ExternalForces& forces) {
+    const bool finite = forces.base_force_W.allFinite() && forces.base_point_B.allFinite() &&
+                        forces.end_effector_force_W.allFinite();
+    if (!finite) {
+      throw NumericalError(fmt::format("plant at {}: external forces must be finite", toText(now())));
+    }
+    external_ = forces;
+  }
+
   StateBlob save() const {
     BlobWriter out;
     out.putBlob(StateBlob(form_.begin(), form_.end()));
@@ -209,6 +218,7 @@ class Plant::Impl {
     dynamics_.forces().clear();
     environment_.addForces(s.now, dynamics_.forces());
     if (faults_.anySlip()) dynamics_.multibody().limitTraction(faults_.traction(s.now));
+    addExternalForces(dynamics_.forces());
 
     const SimTime next = nextEvent(end);
     rk4_.step(dynamics_, toSeconds(s.now - s.last_tick), toSeconds(next - s.now), s.y.data());
@@ -221,6 +231,15 @@ class Plant::Impl {
     }
     s.now = next;
     arrive();
+  }
+
+  void addExternalForces(std::vector<PointForce>& forces) const {
+    if (!external_.base_force_W.isZero(0)) {
+      forces.push_back({kBaseBody, external_.base_point_B, external_.base_force_W});
+    }
+    if (!external_.end_effector_force_W.isZero(0)) {
+      forces.push_back({kLink3Body, config_.robot.p_A3E, external_.end_effector_force_W});
+    }
   }
 
   /// What happens at a point of time: the IMU closes its interval, the drives read their encoders.
@@ -298,7 +317,6 @@ class Plant::Impl {
     f.p_WE = hand.p_WL + hand.R_WL * config_.robot.p_A3E;
     const Eigen::Quaterniond q(Matrix3(hand.R_WL * config_.robot.R_A3E));
     f.quat_WE << q.w(), q.x(), q.y(), q.z();
-    f.external_force_W = environment_.totalForce(state_.now);
     const Touch touch = dynamics_.touch(state_.y.data());
     const DoorMotion door = dynamics_.door(state_.y.data());
     f.contact_force_W = touch.force_W;
@@ -306,6 +324,7 @@ class Plant::Impl {
     f.contact_phase = touch.phase;
     f.door_angle = door.angle;
     f.door_rate = door.rate;
+    f.external_force_W = environment_.totalForce(state_.now) + external_.sum();
   }
 
   PlantConfig config_;
@@ -314,6 +333,7 @@ class Plant::Impl {
   Environment environment_;
   MotionCapture motion_capture_;
   FaultInjector faults_;
+  ExternalForces external_;
   PlantDynamics dynamics_;
   RungeKutta4 rk4_;
   State state_;
@@ -327,6 +347,7 @@ Plant::~Plant() = default;
 void Plant::reset(SimTime start) { impl_->reset(start); }
 SimTime Plant::now() const { return impl_->now(); }
 void Plant::advanceTo(SimTime t, const ActuatorCommand& command) { impl_->advanceTo(t, command); }
+void Plant::setExternalForces(const ExternalForces& forces) { impl_->setExternalForces(forces); }
 const SensorFrame& Plant::sensors() const { return impl_->sensors(); }
 const TruthFrame& Plant::truth() const { return impl_->truth(); }
 StateBlob Plant::saveState() const { return impl_->save(); }

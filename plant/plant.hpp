@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "core/state_blob.hpp"
+#include "model/external_forces.hpp"
 #include "model/signals.hpp"
 #include "model/truth.hpp"
 #include "plant/plant_config.hpp"
@@ -28,6 +29,11 @@ class Plant {
   /// @throw InputError if t is not later. NumericalError if the command is not finite (nothing has
   ///        changed then), or the state is not any more (restore or reset before going on).
   void advanceTo(SimTime t, const ActuatorCommand& command);
+
+  /// Forces that act from now on, besides the scheduled ones, until they are set again. They are
+  /// inputs like the command: no part of the saved state; reset() leaves them.
+  /// @throw NumericalError if they are not finite.
+  void setExternalForces(const ExternalForces& forces);
 
   const SensorFrame& sensors() const;
   const TruthFrame& truth() const;

@@ -17,6 +17,8 @@ class PlantParticipant final : public Participant {
   void enterInitializationMode(SimTime start) override { plant_.reset(start); }
   void exitInitializationMode() override {}
   void doStep(SimTime now, SimDuration step, const ActuatorCommand& command) override;
+  /// As Plant::setExternalForces.
+  void setExternalForces(const ExternalForces& forces) { plant_.setExternalForces(forces); }
   void terminate() override {}
   void reset() override { plant_.reset(kSimStart); }
   const SensorFrame& sensors() const override { return plant_.sensors(); }

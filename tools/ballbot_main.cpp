@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   addDrivesCommand(program, result);
   addHilCommand(program, result);
   addIdentifyCommand(program, result);
+  addFmuCommand(program, result);
   addDoctorCommand(program, result);
 
   try {

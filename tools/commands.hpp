@@ -22,6 +22,7 @@ void addViewCommand(CLI::App& program, ExitCode& result);
 void addDrivesCommand(CLI::App& program, ExitCode& result);
 void addHilCommand(CLI::App& program, ExitCode& result);
 void addIdentifyCommand(CLI::App& program, ExitCode& result);
+void addFmuCommand(CLI::App& program, ExitCode& result);
 void addDoctorCommand(CLI::App& program, ExitCode& result);
 
 }  // namespace ballbot

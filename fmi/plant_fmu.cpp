@@ -1,0 +1,344 @@
+#include "fmi/plant_fmu.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "core/digest.hpp"
+#include "core/error.hpp"
+#include "core/yaml_file.hpp"
+#include "fmi/plant_parameters.hpp"
+#include "fmi/step_time.hpp"
+#include "model/signal_table.hpp"
+#include "plant/plant.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr const char* kBlobKind = "plant FMU";
+constexpr std::uint32_t kBlobVersion = 1;
+/// Part of the token; grows when names, types or order of the variables change.
+constexpr int kInterfaceVersion = 1;
+
+std::string readFile(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path + ": cannot be read; is this the FMU's resources folder?");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+ConfigNode loadResources(const std::string& folder, const std::string& token, int fmi_version) {
+  const std::string file = folder + "/scenario.yaml";
+  const std::string expected =
+      fmuToken(readFile(file), readFile(folder + "/robot.urdf"), fmi_version);
+  if (token != expected) {
+    throw InputError(
+        fmt::format("GUID or instantiation token is '{}', but the resources in '{}' belong to "
+                    "'{}': model description and resources are not of one FMU",
+                    token, folder, expected));
+  }
+  return loadYamlFile(file);
+}
+
+template <typename Frame>
+void readAll(const std::vector<Signal<Frame>>& signals, const Frame& frame, double* to) {
+  for (const auto& signal : signals) {
+    signal.read(frame, to);
+    to += signal.size;
+  }
+}
+
+template <typename Frame>
+Frame frameOf(const std::vector<Signal<Frame>>& signals, const double* from) {
+  Frame frame;
+  for (const auto& signal : signals) {
+    signal.write(frame, from);
+    from += signal.size;
+  }
+  return frame;
+}
+
+constexpr int kForceValues = 9;
+
+/// The words of a hash, as the 32-bit integers of FMI 2.
+double half(std::uint64_t hash, int shift) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(hash >> shift));
+}
+
+}  // namespace
+
+const char* toText(FmuMode mode) {
+  switch (mode) {
+    case FmuMode::kInstantiated:
+      return "instantiated";
+    case FmuMode::kInitialization:
+      return "initialization";
+    case FmuMode::kStep:
+      return "step";
+    case FmuMode::kTerminated:
+      return "terminated";
+    case FmuMode::kError:
+      return "error";
+  }
+  return "unknown";
+}
+
+SimDuration readPlantSubstep(const ConfigNode& scenario) {
+  return readPlantConfig(scenario).substep;
+}
+
+std::string fmuToken(const std::string& scenario_yaml, const std::string& urdf, int fmi_version) {
+  Digest digest;
+  digest.add(static_cast<std::int64_t>(kInterfaceVersion));
+  digest.add(static_cast<std::int64_t>(fmi_version));
+  digest.add(static_cast<std::int64_t>(scenario_yaml.size()));
+  digest.add(scenario_yaml);
+  digest.add(urdf);
+  std::string hex = digest.hex();
+  for (const std::size_t at : {8, 13, 18, 23}) hex.insert(at, "-");
+  return "{" + hex + "}";
+}
+
+PlantFmu::PlantFmu(const std::string& resources, const std::string& token, int fmi_version)
+    : token_(token),
+      scenario_(loadResources(resources, token, fmi_version)),
+      variables_(scenario_),
+      values_(variables_.startValues()),
+      held_(kForceValues, 0.0) {
+  readPlantConfig(scenario_);  // whatever is wrong with it is said now
+}
+
+PlantFmu::~PlantFmu() = default;
+
+void PlantFmu::demand(const char* call, std::initializer_list<FmuMode> allowed) const {
+  if (std::find(allowed.begin(), allowed.end(), mode_) != allowed.end()) return;
+  throw CallOrderError(toText(mode_), call,
+                       fmt::format("{} is not allowed in state '{}'", call, toText(mode_)));
+}
+
+void PlantFmu::setTimes(double start_s, std::optional<double> stop_s) {
+  demand("setting start and stop time", {FmuMode::kInstantiated});
+  const SimTime start = timeFromSeconds("start time", start_s);
+  std::optional<SimTime> stop;
+  if (stop_s) {
+    stop = timeFromSeconds("stop time", *stop_s);
+    if (*stop < start) {
+      throw InputError(
+          fmt::format("stop time is {} s, must not be before the start at {} s", *stop_s, start_s));
+    }
+  }
+  start_ = now_ = start;
+  stop_ = stop;
+}
+
+void PlantFmu::enterInitialization() {
+  demand("entering initialization", {FmuMode::kInstantiated});
+  now_ = start_;
+  stale_ = digest_stale_ = true;
+  mode_ = FmuMode::kInitialization;
+}
+
+void PlantFmu::exitInitialization() {
+  demand("leaving initialization", {FmuMode::kInitialization});
+  plant();
+  mode_ = FmuMode::kStep;
+}
+
+void PlantFmu::terminate() {
+  demand("terminate", {FmuMode::kStep});
+  mode_ = FmuMode::kTerminated;
+}
+
+void PlantFmu::reset() {
+  plant_.reset();
+  values_ = variables_.startValues();
+  held_.assign(kForceValues, 0.0);
+  start_ = now_ = SimTime{};
+  stop_.reset();
+  stale_ = digest_stale_ = true;
+  mode_ = FmuMode::kInstantiated;
+}
+
+void PlantFmu::doStep(double communication_point_s, double step_s) {
+  demand("doStep", {FmuMode::kStep});
+  const StepTarget target = stepTarget(now_, communication_point_s, step_s, stop_);
+  if (!target.refusal.empty()) throw InputError("doStep: " + target.refusal);
+  const FmuVariables::Groups& g = variables_.groups();
+  held_.assign(&values_[g.forces], &values_[g.forces] + kForceValues);
+  plant_->setExternalForces(frameOf(externalForceSignals(), held_.data()));
+  stale_ = digest_stale_ = true;
+  plant_->advanceTo(target.end, frameOf(commandSignals(), &values_[g.command]));
+  now_ = target.end;
+}
+
+double PlantFmu::value(ValueReference reference) {
+  const FmuVariable* v = variables_.find(reference);
+  if (!v) throw InputError(fmt::format("there is no variable with value reference {}", reference));
+  if (v->role == VariableRole::kTime) return secondsOf(now_);
+  // Before initialisation outputs show their start values, which are zero.
+  if (!v->hasStart() && mode_ != FmuMode::kInstantiated) {
+    if (stale_) refresh();
+    const ValueReference digest = variables_.groups().digest;
+    if (digest_stale_ && v->reference == digest) {
+      const std::uint64_t hash = plant().stateDigest();
+      values_[digest] = half(hash, 0);
+      values_[digest + 1] = half(hash, 32);
+      digest_stale_ = false;
+    }
+  }
+  return values_[reference];
+}
+
+void PlantFmu::setValue(ValueReference reference, double value) {
+  const FmuVariable* v = variables_.find(reference);
+  if (!v) throw InputError(fmt::format("there is no variable with value reference {}", reference));
+  const bool before_start = mode_ == FmuMode::kInstantiated || mode_ == FmuMode::kInitialization;
+  const std::string name = elementName(*v, static_cast<int>(reference - v->reference));
+  if (!v->hasStart()) {
+    throw InputError(fmt::format("'{}' cannot be set: it is no input and no parameter", name));
+  }
+  if (isParameter(reference) && !before_start) {
+    throw InputError(
+        fmt::format("parameter '{}' cannot be set in state '{}', only before "
+                    "initialization ends",
+                    name, toText(mode_)));
+  }
+  if (!before_start) demand("setting inputs", {FmuMode::kStep});
+  if (!std::isfinite(value)) {
+    throw InputError(fmt::format("'{}' is set to {}, must be finite", name, value));
+  }
+  if (isParameter(reference) && value != values_[reference]) {
+    ConfigNode scratch = ConfigNode::map({});
+    setParameter(plantParameters()[reference - variables_.groups().parameters], value, scratch);
+    plant_.reset();  // to be built anew
+    stale_ = digest_stale_ = true;
+  }
+  values_[reference] = value;
+}
+
+ConfigNode PlantFmu::effectiveScenario(const std::vector<double>& values) const {
+  ConfigNode scenario = scenario_;
+  const ValueReference first = variables_.groups().parameters;
+  const std::vector<PlantParameter>& parameters = plantParameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double value = values[first + i];
+    if (value != variables_.find(first + static_cast<ValueReference>(i))->start) {
+      setParameter(parameters[i], value, scenario);
+    }
+  }
+  return scenario;
+}
+
+std::unique_ptr<Plant> PlantFmu::makePlant(const std::vector<double>& values) const {
+  return std::make_unique<Plant>(readPlantConfig(effectiveScenario(values)));
+}
+
+Plant& PlantFmu::plant() {
+  if (!plant_) {
+    plant_ = makePlant(values_);
+    plant_->reset(start_);
+  }
+  return *plant_;
+}
+
+void PlantFmu::refresh() {
+  const FmuVariables::Groups& g = variables_.groups();
+  readAll(sensorSignals(), plant().sensors(), &values_[g.sensors]);
+  readAll(truthSignals(), plant().truth(), &values_[g.truth]);
+  stale_ = false;
+}
+
+StateBlob PlantFmu::saveState() const {
+  BlobWriter out;
+  out.putBlob(StateBlob(token_.begin(), token_.end()));
+  out.put(mode_);
+  out.put(toNs(start_));
+  out.put(toNs(now_));
+  out.put(stop_.has_value());
+  out.put(toNs(stop_.value_or(SimTime{})));
+  std::vector<double> settable;
+  for (const FmuVariable& v : variables_.all()) {
+    if (!v.hasStart()) continue;
+    settable.insert(settable.end(), &values_[v.reference], &values_[v.reference] + v.size);
+  }
+  out.putVector(settable);
+  out.putVector(held_);
+  out.put(plant_ != nullptr);
+  if (plant_) out.putBlob(plant_->saveState());
+  return out.seal(kBlobKind, kBlobVersion);
+}
+
+/// A saved state, taken apart.
+struct PlantFmu::Saved {
+  FmuMode mode{};
+  SimTime start{}, now{};
+  std::optional<SimTime> stop;
+  std::vector<double> values;
+  std::vector<double> held;
+  std::optional<StateBlob> plant;
+};
+
+PlantFmu::Saved PlantFmu::read(const StateBlob& blob) const {
+  BlobReader in(blob, kBlobKind, kBlobVersion);
+  const StateBlob token = in.getBlob();
+  if (std::string(token.begin(), token.end()) != token_) {
+    throw InputError("this state is of an FMU made from another scenario, robot or FMI version");
+  }
+  Saved s;
+  s.mode = in.get<FmuMode>();
+  s.start = simTimeFromNs(in.get<std::int64_t>());
+  s.now = simTimeFromNs(in.get<std::int64_t>());
+  const bool has_stop = in.get<std::uint8_t>() != 0;
+  const SimTime stop = simTimeFromNs(in.get<std::int64_t>());
+  if (has_stop) s.stop = stop;
+  const std::vector<double> settable = in.getVector();
+  s.held = in.getVector();
+  if (in.get<std::uint8_t>() != 0) s.plant = in.getBlob();
+  in.finish();
+
+  s.values = variables_.startValues();
+  std::size_t next = 0;
+  for (const FmuVariable& v : variables_.all()) {
+    if (!v.hasStart()) continue;
+    const auto size = static_cast<std::size_t>(v.size);
+    if (next + size > settable.size()) break;
+    std::copy_n(&settable[next], size, &s.values[v.reference]);
+    next += size;
+  }
+  if (s.mode > FmuMode::kError || next != settable.size() || s.held.size() != kForceValues) {
+    throw InputError("this state does not have the form of this FMU's");
+  }
+  return s;
+}
+
+void PlantFmu::checkState(const StateBlob& blob) const { read(blob); }
+
+void PlantFmu::restoreState(const StateBlob& blob) {
+  Saved s = read(blob);
+  const auto first = static_cast<std::ptrdiff_t>(variables_.groups().parameters);
+  if (s.plant) {
+    // A plant with the same parameters is worth keeping: to build one costs many restores.
+    const bool fits =
+        plant_ && std::equal(values_.begin() + first, values_.end(), s.values.begin() + first);
+    std::unique_ptr<Plant> fresh = fits ? nullptr : makePlant(s.values);
+    Plant& target = fits ? *plant_ : *fresh;
+    target.setExternalForces(frameOf(externalForceSignals(), s.held.data()));
+    target.restoreState(*s.plant);
+    if (fresh) plant_ = std::move(fresh);
+  } else {
+    plant_.reset();
+  }
+  values_ = std::move(s.values);
+  held_ = std::move(s.held);
+  mode_ = s.mode;
+  start_ = s.start;
+  now_ = s.now;
+  stop_ = s.stop;
+  stale_ = digest_stale_ = true;
+}
+
+}  // namespace ballbot
