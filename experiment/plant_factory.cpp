@@ -1,13 +1,16 @@
 #include "experiment/plant_link.hpp"
+#include "fmi/coupled_plant.hpp"
 #include "plant/plant_config.hpp"
-#include "plant/plant_participant.hpp"
 
 namespace ballbot {
 
 std::unique_ptr<Participant> makePlant(const Scenario& scenario) {
-  return makePlantParticipant(scenario.tree);
+  return makePlantWithFmus(scenario.tree);
 }
 
-void checkPlant(const Scenario& scenario) { readPlantConfig(scenario.tree); }
+void checkPlant(const Scenario& scenario) {
+  readPlantConfig(scenario.tree);
+  if (scenario.tree.find("fmus")) planCoupling(scenario.tree);
+}
 
 }  // namespace ballbot

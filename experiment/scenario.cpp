@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/yaml_file.hpp"
 #include "experiment/text_file.hpp"
+#include "fmi/coupling_config.hpp"
 #include "model/robot_reader.hpp"
 
 namespace ballbot {
@@ -67,7 +68,7 @@ std::string requireUrdf(const ConfigNode& robot) {
 }
 
 constexpr const char* kSections[] = {"robot",     "plant",    "initial",    "environment",
-                                     "estimator", "controller", "recording"};
+                                     "estimator", "controller", "recording", "fmus"};
 
 }  // namespace
 
@@ -82,9 +83,11 @@ const ConfigNode& Scenario::section(const std::string& section_name) const {
 std::string Scenario::configDigest() const {
   ConfigNode canonical = tree;
   canonical.find("robot")->set("urdf", ConfigNode::scalar("robot.urdf", false, {}));
+  redirectFmus(canonical, [](const FmuEntry& fmu) { return fmu.name; });
   Digest digest;
   digest.add(toYaml(canonical));
   digest.add(readTextFile(urdf_path));
+  for (const FmuEntry& fmu : readFmus(tree)) digest.add(readTextFile(fmu.file));
   return digest.hex();
 }
 
@@ -129,6 +132,12 @@ Scenario loadScenario(const std::string& path, const std::vector<std::string>& o
 void writeScenario(const Scenario& scenario, const std::string& folder) {
   ConfigNode tree = scenario.tree;
   tree.find("robot")->set("urdf", ConfigNode::scalar("robot.urdf", false, {}));
+  redirectFmus(tree, [&](const FmuEntry& fmu) {
+    fs::create_directories(folder + "/fmus");
+    const std::string file = "fmus/" + fmu.name + ".fmu";
+    writeTextFile(folder + "/" + file, readTextFile(fmu.file));
+    return file;
+  });
   writeTextFile(folder + "/scenario.yaml",
                 "# What was run: includes and overrides resolved. Run it again with\n"
                 "#   ballbot run scenario.yaml\n" +

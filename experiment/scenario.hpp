@@ -44,7 +44,7 @@ struct Scenario {
   const ConfigNode& section(const std::string& name) const;
 
   /// Digest of everything that decides the course of a run: the effective configuration and the
-  /// bytes of the URDF. Two processes of a run must agree on it.
+  /// bytes of the URDF and of FMUs. Two processes of a run must agree on it.
   std::string configDigest() const;
 };
 
@@ -54,7 +54,7 @@ struct Scenario {
 Scenario loadScenario(const std::string& path, const std::vector<std::string>& overrides = {},
                       std::optional<std::uint64_t> seed = std::nullopt);
 
-/// Writes `scenario.yaml` and `robot.urdf` into `folder`: with includes and overrides resolved,
+/// Writes `scenario.yaml`, `robot.urdf` and the FMUs, if there are any, into `folder`: with includes and overrides resolved,
 /// so that the folder alone says what was run. loadScenario(folder/scenario.yaml) gives the same.
 /// @throw OutputError
 void writeScenario(const Scenario& scenario, const std::string& folder);

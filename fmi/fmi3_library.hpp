@@ -9,18 +9,18 @@ namespace ballbot {
 #define BALLBOT_FMI3_FUNCTIONS(X)                                                                  \
   X(fmi3GetVersion)                                                                                \
   X(fmi3SetDebugLogging)                                                                           \
-  X(fmi3InstantiateModelExchange) X(fmi3InstantiateCoSimulation) X(                                \
-      fmi3InstantiateScheduledExecution) X(fmi3FreeInstance) X(fmi3EnterInitializationMode)        \
-      X(fmi3ExitInitializationMode) X(fmi3EnterEventMode) X(fmi3Terminate) X(fmi3Reset) X(         \
-          fmi3GetFloat32) X(fmi3GetFloat64) X(fmi3GetInt8) X(fmi3GetUInt8) X(fmi3GetInt16)         \
-          X(fmi3GetUInt16) X(fmi3GetInt32) X(fmi3GetUInt32) X(fmi3GetInt64) X(fmi3GetUInt64) X(    \
-              fmi3GetBoolean) X(fmi3GetString) X(fmi3GetBinary) X(fmi3GetClock) X(fmi3SetFloat32)  \
-              X(fmi3SetFloat64) X(fmi3SetInt8) X(fmi3SetUInt8) X(fmi3SetInt16) X(fmi3SetUInt16) X( \
-                  fmi3SetInt32) X(fmi3SetUInt32) X(fmi3SetInt64) X(fmi3SetUInt64)                  \
-                  X(fmi3SetBoolean) X(fmi3SetString) X(fmi3SetBinary) X(fmi3SetClock) X(           \
-                      fmi3GetNumberOfVariableDependencies) X(fmi3GetVariableDependencies)          \
-                      X(fmi3GetFMUState) X(fmi3SetFMUState) X(fmi3FreeFMUState) X(                 \
-                          fmi3SerializedFMUStateSize) X(fmi3SerializeFMUState)                     \
+  X(fmi3InstantiateModelExchange)                                                                  \
+  X(fmi3InstantiateCoSimulation) X(fmi3InstantiateScheduledExecution) X(fmi3FreeInstance) X(       \
+      fmi3EnterInitializationMode) X(fmi3ExitInitializationMode) X(fmi3EnterEventMode)             \
+      X(fmi3Terminate) X(fmi3Reset) X(fmi3GetFloat32) X(fmi3GetFloat64) X(fmi3GetInt8) X(          \
+          fmi3GetUInt8) X(fmi3GetInt16) X(fmi3GetUInt16) X(fmi3GetInt32) X(fmi3GetUInt32)          \
+          X(fmi3GetInt64) X(fmi3GetUInt64) X(fmi3GetBoolean) X(fmi3GetString) X(fmi3GetBinary) X(  \
+              fmi3GetClock) X(fmi3SetFloat32) X(fmi3SetFloat64) X(fmi3SetInt8) X(fmi3SetUInt8)     \
+              X(fmi3SetInt16) X(fmi3SetUInt16) X(fmi3SetInt32) X(fmi3SetUInt32) X(fmi3SetInt64)    \
+                  X(fmi3SetUInt64) X(fmi3SetBoolean) X(fmi3SetString) X(fmi3SetBinary) X(          \
+                      fmi3SetClock) X(fmi3GetNumberOfVariableDependencies)                         \
+                      X(fmi3GetVariableDependencies) X(fmi3GetFMUState) X(fmi3SetFMUState) X(      \
+                          fmi3FreeFMUState) X(fmi3SerializedFMUStateSize) X(fmi3SerializeFMUState) \
                           X(fmi3DeserializeFMUState) X(fmi3GetDirectionalDerivative) X(            \
                               fmi3GetAdjointDerivative) X(fmi3EnterConfigurationMode)              \
                               X(fmi3ExitConfigurationMode) X(fmi3GetIntervalDecimal) X(            \

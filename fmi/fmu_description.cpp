@@ -204,7 +204,10 @@ FmuPort findPort(const FmuDescription& fmu, const std::string& name) {
         "{}: the size of '{}' is not fixed; such arrays cannot be connected", fmu.file, name));
   }
   std::set<std::string> names;
-  for (const ImportedVariable& v : fmu.variables) names.insert(v.name);
+  for (const ImportedVariable& v : fmu.variables) {
+    names.insert(v.name);
+    names.insert(v.name.substr(0, v.name.find('[')));
+  }
   const std::string near = nearestWord(name, names);
   throw InputError(fmt::format("{}: has no variable '{}'{}", fmu.file, name,
                                near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));

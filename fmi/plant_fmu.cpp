@@ -45,20 +45,9 @@ ConfigNode loadResources(const std::string& folder, const std::string& token, in
 }
 
 template <typename Frame>
-void readAll(const std::vector<Signal<Frame>>& signals, const Frame& frame, double* to) {
-  for (const auto& signal : signals) {
-    signal.read(frame, to);
-    to += signal.size;
-  }
-}
-
-template <typename Frame>
 Frame frameOf(const std::vector<Signal<Frame>>& signals, const double* from) {
   Frame frame;
-  for (const auto& signal : signals) {
-    signal.write(frame, from);
-    from += signal.size;
-  }
+  writeSignals(signals, from, frame);
   return frame;
 }
 
@@ -247,8 +236,8 @@ Plant& PlantFmu::plant() {
 
 void PlantFmu::refresh() {
   const FmuVariables::Groups& g = variables_.groups();
-  readAll(sensorSignals(), plant().sensors(), &values_[g.sensors]);
-  readAll(truthSignals(), plant().truth(), &values_[g.truth]);
+  readSignals(sensorSignals(), plant().sensors(), &values_[g.sensors]);
+  readSignals(truthSignals(), plant().truth(), &values_[g.truth]);
   stale_ = false;
 }
 

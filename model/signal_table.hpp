@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "model/external_forces.hpp"
@@ -28,6 +29,28 @@ struct Signal {
   void (*read)(const Frame& from, double* to);
   void (*write)(Frame& to, const double* from);
 };
+
+/// A frame as a row of numbers, in the order of its signals. Its time is not in it.
+template <typename Frame>
+std::size_t rowSize(const std::vector<Signal<Frame>>& signals) {
+  std::size_t size = 0;
+  for (const auto& signal : signals) size += static_cast<std::size_t>(signal.size);
+  return size;
+}
+template <typename Frame>
+void readSignals(const std::vector<Signal<Frame>>& signals, const Frame& from, double* to) {
+  for (const auto& signal : signals) {
+    signal.read(from, to);
+    to += signal.size;
+  }
+}
+template <typename Frame>
+void writeSignals(const std::vector<Signal<Frame>>& signals, const double* from, Frame& to) {
+  for (const auto& signal : signals) {
+    signal.write(to, from);
+    from += signal.size;
+  }
+}
 
 /// Every quantity of the frames, in the order of the messages. The time a frame holds for is
 /// not among them: whoever exchanges frames knows it.

@@ -7,6 +7,7 @@
 
 #include "experiment/scenario.hpp"
 #include "fmi/fmu_export.hpp"
+#include "fmi/fmu_process.hpp"
 #include "tools/commands.hpp"
 #include "tools/fmu_facts.hpp"
 
@@ -47,6 +48,16 @@ ExitCode showFmu(const FmuArguments& arguments) {
   return ExitCode::kPassed;
 }
 
+/// The process of one FMU of a run. No verb for people: it has no line in --help.
+void addFmuServeCommand(CLI::App& program, ExitCode& result) {
+  CLI::App* command =
+      program.add_subcommand(kFmuServeVerb, "The process of an FMU; started by run");
+  command->group("");
+  const auto socket = std::make_shared<int>(-1);
+  command->add_option("--socket", *socket)->required();
+  command->callback([&result, socket] { result = static_cast<ExitCode>(serveFmu(*socket)); });
+}
+
 }  // namespace
 
 void addFmuCommand(CLI::App& program, ExitCode& result) {
@@ -81,6 +92,7 @@ void addFmuCommand(CLI::App& program, ExitCode& result) {
     }
     result = a->info.empty() ? exportPlant(*a) : showFmu(*a);
   });
+  addFmuServeCommand(program, result);
 }
 
 }  // namespace ballbot

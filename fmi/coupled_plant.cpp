@@ -1,0 +1,157 @@
+#include "fmi/coupled_plant.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/digest.hpp"
+#include "core/error.hpp"
+#include "fmi/native_plant_model.hpp"
+#include "model/signal_table.hpp"
+#include "plant/plant_participant.hpp"
+
+namespace ballbot {
+namespace {
+
+constexpr const char* kBlobKind = "coupled plant";
+constexpr std::uint32_t kBlobVersion = 1;
+
+void putRows(BlobWriter& out, const std::vector<std::vector<double>>& rows) {
+  for (const auto& row : rows) out.putVector(row);
+}
+
+std::vector<std::vector<double>> getRows(BlobReader& in,
+                                         const std::vector<std::vector<double>>& like) {
+  std::vector<std::vector<double>> rows;
+  for (const auto& row : like) {
+    rows.push_back(in.getVector());
+    if (rows.back().size() != row.size()) {
+      throw InputError("this state is of plant and FMUs with other connections");
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+CoupledPlant::CoupledPlant(const ConfigNode& scenario, const std::string& program)
+    : plan_(planCoupling(scenario)),
+      controller_(plan_.graph.find(kControllerName)),
+      record_(plan_.graph.find(kRecordName)) {
+  if (plan_.native_plant) models_.push_back(std::make_unique<NativePlantModel>(scenario));
+  for (const FmuUse& use : plan_.fmus)
+    models_.push_back(std::make_unique<FmuProcess>(use, program));
+  for (const CouplingNode& node : plan_.graph.nodes()) {
+    inputs_.emplace_back(node.inputSize(), 0.0);
+    outputs_.emplace_back(node.outputSize(), 0.0);
+  }
+  for (std::size_t i = 0; i < models_.size(); ++i) outputs_[i] = models_[i]->outputs();
+  before_ = outputs_;
+}
+
+void CoupledPlant::enterInitializationMode(SimTime start) {
+  now_ = start;
+  for (std::size_t i = 0; i < models_.size(); ++i) {
+    models_[i]->initialize(start);
+    outputs_[i] = models_[i]->outputs();
+  }
+  before_ = outputs_;
+  evaluate(plan_.graph.beforeController());
+  observe();
+}
+
+void CoupledPlant::doStep(SimTime now, SimDuration step, const ActuatorCommand& command) {
+  readSignals(commandSignals(), command, outputs_[controller_].data());
+  requireTaken();
+  evaluate(plan_.graph.afterController());
+  for (std::size_t i = 0; i < models_.size(); ++i) {
+    plan_.graph.gather(i, outputs_, before_, inputs_[i]);
+  }
+  before_ = outputs_;
+  for (std::size_t i = 0; i < models_.size(); ++i) {
+    models_[i]->step(now, step, inputs_[i]);
+    outputs_[i] = models_[i]->outputs();
+  }
+  now_ = now + step;
+  evaluate(plan_.graph.beforeController());
+  observe();
+}
+
+void CoupledPlant::evaluate(const std::vector<std::size_t>& nodes) {
+  for (const std::size_t i : nodes) {
+    plan_.graph.gather(i, outputs_, before_, inputs_[i]);
+    models_[i]->evaluate(inputs_[i]);
+    outputs_[i] = models_[i]->outputs();
+  }
+}
+
+void CoupledPlant::requireTaken() const {
+  for (const CouplingPort& port : plan_.graph.nodes()[controller_].outputs) {
+    if (plan_.graph.used(controller_, port)) continue;
+    for (std::size_t i = 0; i < port.size; ++i) {
+      if (outputs_[controller_][port.offset + i] == 0) continue;
+      throw InputError(fmt::format("at {}: the controller sets '{}', but no connection takes it",
+                                   toText(now_), port.name));
+    }
+  }
+}
+
+void CoupledPlant::observe() {
+  plan_.graph.gather(controller_, outputs_, before_, inputs_[controller_]);
+  writeSignals(sensorSignals(), inputs_[controller_].data(), sensors_);
+  sensors_.time = now_;
+  if (!plan_.has_truth) return;
+  plan_.graph.gather(record_, outputs_, before_, inputs_[record_]);
+  writeSignals(truthSignals(), inputs_[record_].data(), truth_);
+  truth_.time = now_;
+}
+
+void CoupledPlant::terminate() {
+  for (const auto& model : models_) model->terminate();
+}
+
+void CoupledPlant::reset() {
+  for (const auto& model : models_) model->reset();
+}
+
+std::optional<TruthFrame> CoupledPlant::truth() const {
+  return plan_.has_truth ? std::optional<TruthFrame>(truth_) : std::nullopt;
+}
+
+StateBlob CoupledPlant::saveState() const {
+  BlobWriter out;
+  out.put(toNs(now_));
+  putRows(out, outputs_);
+  putRows(out, before_);
+  for (const auto& model : models_) out.putBlob(model->save());
+  return out.seal(kBlobKind, kBlobVersion);
+}
+
+void CoupledPlant::restoreState(const StateBlob& blob) {
+  BlobReader in(blob, kBlobKind, kBlobVersion);
+  const SimTime now = simTimeFromNs(in.get<std::int64_t>());
+  Rows outputs = getRows(in, outputs_), before = getRows(in, before_);
+  std::vector<StateBlob> states;
+  for (std::size_t i = 0; i < models_.size(); ++i) states.push_back(in.getBlob());
+  in.finish();
+  for (std::size_t i = 0; i < models_.size(); ++i) models_[i]->restore(states[i]);
+  now_ = now;
+  outputs_ = std::move(outputs);
+  before_ = std::move(before);
+  observe();
+}
+
+std::uint64_t CoupledPlant::stateDigest() const {
+  if (models_.size() == 1) return models_.front()->digest();
+  std::vector<std::uint64_t> digests;
+  for (const auto& model : models_) digests.push_back(model->digest());
+  return hash64(digests.data(), digests.size() * sizeof(std::uint64_t));
+}
+
+std::unique_ptr<Participant> makePlantWithFmus(const ConfigNode& scenario,
+                                               const std::string& program) {
+  if (!scenario.find("fmus")) return makePlantParticipant(scenario);
+  return std::make_unique<CoupledPlant>(scenario, program);
+}
+
+}  // namespace ballbot

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cosim/participant.hpp"
+#include "fmi/coupling_plan.hpp"
+#include "fmi/stepped_model.hpp"
+
+namespace ballbot {
+
+/// The plant of a scenario that has `fmus:`: this program's own, or an FMU in its place, together
+/// with other FMUs that are coupled to it. Values are exchanged at the events of the run and held
+/// in between; all take their steps in the order of the scenario.
+///
+/// All calls throw what the models throw: LostParticipantError names an FMU whose process ended.
+class CoupledPlant final : public Participant {
+ public:
+  /// @param program executable of this program, for the FMUs' processes
+  CoupledPlant(const ConfigNode& scenario, const std::string& program);
+
+  std::string name() const override { return kPlantName; }
+  void enterInitializationMode(SimTime start) override;
+  void exitInitializationMode() override {}
+  /// @throw InputError also if a command that no connection takes is not zero.
+  void doStep(SimTime now, SimDuration step, const ActuatorCommand& command) override;
+  void terminate() override;
+  void reset() override;
+  const SensorFrame& sensors() const override { return sensors_; }
+  std::optional<TruthFrame> truth() const override;
+  StateBlob saveState() const override;
+  void restoreState(const StateBlob& blob) override;
+  std::uint64_t stateDigest() const override;
+
+ private:
+  using Rows = std::vector<std::vector<double>>;
+
+  void evaluate(const std::vector<std::size_t>& nodes);
+  void requireTaken() const;
+  void observe();
+
+  CouplingPlan plan_;
+  std::size_t controller_, record_;
+  /// One per node of the graph but controller and record, which come last and have none.
+  std::vector<std::unique_ptr<SteppedModel>> models_;
+  Rows inputs_, outputs_;
+  Rows before_;  ///< outputs one communication step ago, for delayed connections
+  SimTime now_{};
+  SensorFrame sensors_;
+  TruthFrame truth_;
+};
+
+/// The plant that a scenario describes, with its FMUs if it has any.
+/// @throw InputError with file, line and column.
+std::unique_ptr<Participant> makePlantWithFmus(const ConfigNode& scenario,
+                                               const std::string& program = "/proc/self/exe");
+
+}  // namespace ballbot

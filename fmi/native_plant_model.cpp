@@ -1,0 +1,39 @@
+#include "fmi/native_plant_model.hpp"
+
+#include "core/config_node.hpp"
+#include "model/signal_table.hpp"
+
+namespace ballbot {
+
+NativePlantModel::NativePlantModel(const ConfigNode& scenario)
+    : plant_(readPlantConfig(scenario)),
+      outputs_(rowSize(sensorSignals()) + rowSize(truthSignals()), 0.0) {
+  observe();
+}
+
+void NativePlantModel::initialize(SimTime start) {
+  plant_.reset(start);
+  observe();
+}
+
+void NativePlantModel::step(SimTime now, SimDuration step, const std::vector<double>& inputs) {
+  ActuatorCommand command;
+  ExternalForces forces;
+  writeSignals(commandSignals(), inputs.data(), command);
+  writeSignals(externalForceSignals(), inputs.data() + rowSize(commandSignals()), forces);
+  plant_.setExternalForces(forces);
+  plant_.advanceTo(now + step, command);
+  observe();
+}
+
+void NativePlantModel::restore(const StateBlob& blob) {
+  plant_.restoreState(blob);
+  observe();
+}
+
+void NativePlantModel::observe() {
+  readSignals(sensorSignals(), plant_.sensors(), outputs_.data());
+  readSignals(truthSignals(), plant_.truth(), outputs_.data() + rowSize(sensorSignals()));
+}
+
+}  // namespace ballbot

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "fmi/stepped_model.hpp"
+#include "plant/plant.hpp"
+
+namespace ballbot {
+
+/// This program's own plant as a model in a coupling. Inputs: command, external forces; outputs:
+/// sensors, truth; each in the order of model/signal_table.hpp.
+class NativePlantModel final : public SteppedModel {
+ public:
+  /// @throw InputError as readPlantConfig().
+  explicit NativePlantModel(const ConfigNode& scenario);
+
+  void initialize(SimTime start) override;
+  /// No output of the plant follows from an input at once.
+  void evaluate(const std::vector<double>&) override {}
+  void step(SimTime now, SimDuration step, const std::vector<double>& inputs) override;
+  void terminate() override {}
+  void reset() override { plant_.reset(kSimStart); }
+  StateBlob save() override { return plant_.saveState(); }
+  void restore(const StateBlob& blob) override;
+  const std::vector<double>& outputs() const override { return outputs_; }
+  std::uint64_t digest() const override { return plant_.stateDigest(); }
+
+ private:
+  void observe();
+
+  Plant plant_;
+  std::vector<double> outputs_;
+};
+
+}  // namespace ballbot
