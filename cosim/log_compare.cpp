@@ -1,5 +1,6 @@
 #include "cosim/log_compare.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
@@ -59,8 +60,14 @@ RunDifference differenceAt(const TickHashes& run, std::optional<Channel> channel
 
 }  // namespace
 
-std::optional<RunDifference> compareLogs(const std::string& path_a, const std::string& path_b) {
+std::optional<RunDifference> compareLogs(const std::string& path_a, const std::string& path_b,
+                                         RunBegin begin) {
   TickHashes a(path_a), b(path_b);
+  if (begin == RunBegin::kMayBeLater) {
+    const std::int64_t first = std::max(a.tick(), b.tick());
+    while (!a.atEnd() && a.tick() < first) a.advance();
+    while (!b.atEnd() && b.tick() < first) b.advance();
+  }
   for (; !a.atEnd() && !b.atEnd(); a.advance(), b.advance()) {
     if (a.time() != b.time() || a.tick() != b.tick()) {
       return differenceAt(

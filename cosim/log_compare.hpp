@@ -20,9 +20,14 @@ struct RunDifference {
   std::string text;
 };
 
+/// Where two runs begin: at the same event, or one later, as a run does that continues another.
+enum class RunBegin { kSame, kMayBeLater };
+
 /// Compares the logs of two runs event by event at full rate, whatever they kept of the messages.
-/// Nothing if they are identical as far as both reach and end together.
+/// Nothing if they are identical as far as both reach and end together; where one may begin later,
+/// what the other did before is passed over.
 /// @throw InputError if a log cannot be read or holds no digests.
-std::optional<RunDifference> compareLogs(const std::string& path_a, const std::string& path_b);
+std::optional<RunDifference> compareLogs(const std::string& path_a, const std::string& path_b,
+                                         RunBegin begin = RunBegin::kSame);
 
 }  // namespace ballbot

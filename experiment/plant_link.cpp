@@ -7,6 +7,7 @@
 
 #include "core/digest.hpp"
 #include "core/error.hpp"
+#include "cosim/lifecycle.hpp"
 
 namespace ballbot {
 
@@ -35,7 +36,7 @@ PlantLink::~PlantLink() {
 
 void PlantLink::start() {
   if (options_.in_process) {
-    local_ = makePlant(scenario_);
+    local_ = std::make_unique<Lifecycle>(makePlant(scenario_));
     return;
   }
   LcmAddress address = options_.address;

@@ -10,6 +10,12 @@
 #include "experiment/rejection_metrics.hpp"
 
 namespace ballbot {
+namespace {
+
+constexpr const char* kBlobKind = "controller";
+constexpr std::uint32_t kBlobVersion = 6;
+
+}  // namespace
 
 RobotController::RobotController(const Scenario& scenario, EventCalendar& calendar)
     : release_(scenario.release),
@@ -51,7 +57,7 @@ void RobotController::onSensors(SimTime now, const SensorFrame& sensors, DueTask
     plan_pending_ = false;
     has_policy_ = true;
   }
-  if (due.has(planner_task_) && !plan_pending_) plan(now, sensors, out);
+  if ((due.has(planner_task_) || plan_now_) && !plan_pending_) plan(now, sensors, out);
   if (due.has(tracker_task_)) track(now, sensors, out);
 }
 
@@ -61,6 +67,7 @@ void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutpu
   if (wall_clock_ns_ && plan_times_.size() < plan_times_.capacity()) {
     plan_times_.push_back({wall_clock_ns_() - started, report.times});
   }
+  plan_now_ = false;
   ++plans_;
   if (!report.accepted) ++plans_refused_;
   if (report.fallback) ++plans_on_fallback_;
@@ -122,6 +129,7 @@ StateBlob RobotController::saveState() const {
   putPolicySample(out, policy_);
   out.put(plan_pending_);
   out.put(has_policy_);
+  out.put(plan_now_);
   out.put(toNs(pending_since_));
   out.put(plans_);
   out.put(plans_refused_);
@@ -129,17 +137,27 @@ StateBlob RobotController::saveState() const {
   out.put(ticks_saturated_);
   out.put(ticks_not_finite_);
   feedforward_share_.save(out);
-  return out.seal("controller", 5);
+  return out.seal(kBlobKind, kBlobVersion);
 }
 
-void RobotController::restoreState(const StateBlob& blob) {
-  BlobReader in(blob, "controller", 5);
+void RobotController::restoreState(const StateBlob& blob) { restore(blob, true); }
+
+void RobotController::takeOver(const StateBlob& blob) {
+  restore(blob, false);
+  plan_pending_ = has_policy_ = false;
+  plan_now_ = true;
+}
+
+void RobotController::restore(const StateBlob& blob, bool with_law) {
+  BlobReader in(blob, kBlobKind, kBlobVersion);
   sensing_.restore(in);
-  law_->restoreState(in.getBlob());
+  const StateBlob law = in.getBlob();
+  if (with_law) law_->restoreState(law);
   law_->setContactForce(sensing_.contactForce());
   getPolicySample(in, policy_);
   plan_pending_ = in.get<bool>();
   has_policy_ = in.get<bool>();
+  plan_now_ = in.get<bool>();
   pending_since_ = simTimeFromNs(in.get<std::int64_t>());
   plans_ = in.get<std::int64_t>();
   plans_refused_ = in.get<std::int64_t>();

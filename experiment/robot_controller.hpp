@@ -34,6 +34,10 @@ class RobotController final : public SteppedController {
                  ControlOutput& out) noexcept override;
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;
+  /// The same from a controller with another balancing law: what is known of the robot stays, and
+  /// this law makes a plan at the next event, which acts at once.
+  /// @throw InputError if the estimator is another kind.
+  void takeOver(const StateBlob& blob);
 
   /// Counts over the run, for the summary: plans made, refused and made while the LQR stood in, ticks
   /// with saturated torque or a command that was not finite, and what the estimator rejected.
@@ -51,6 +55,7 @@ class RobotController final : public SteppedController {
   const std::vector<PlanTimes>& planTimes() const { return plan_times_; }
 
  private:
+  void restore(const StateBlob& blob, bool with_law);
   void plan(SimTime now, const SensorFrame& sensors, ControlOutput& out);
   void track(SimTime now, const SensorFrame& sensors, ControlOutput& out);
 
@@ -65,6 +70,7 @@ class RobotController final : public SteppedController {
   FeedforwardShare feedforward_share_;
   bool plan_pending_ = false;
   bool has_policy_ = false;
+  bool plan_now_ = false;  ///< whether or not the planner is due
   SimTime pending_since_{};
   std::int64_t plans_ = 0, plans_refused_ = 0, plans_on_fallback_ = 0;
   std::int64_t ticks_saturated_ = 0, ticks_not_finite_ = 0;

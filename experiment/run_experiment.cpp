@@ -7,6 +7,7 @@
 #include "core/config_reader.hpp"
 #include "cosim/recorder.hpp"
 #include "cosim/step_master.hpp"
+#include "experiment/checkpoint_files.hpp"
 #include "experiment/plant_link.hpp"
 #include "experiment/robot_controller.hpp"
 #include "experiment/run_metrics.hpp"
@@ -23,17 +24,48 @@ std::int64_t wallNs() noexcept {
       .count();
 }
 
-RecorderOptions readRecorderOptions(const Scenario& scenario, const std::string& log_path) {
-  RecorderOptions options;
-  options.log_path = log_path;
-  options.sensors = options.estimate = scenario.rates.estimator;
+/// What of a run is kept, and how often.
+struct Recording {
+  RecorderOptions log;
+  SimDuration checkpoint_period{};  ///< zero: no checkpoints
+};
+
+Recording readRecording(const Scenario& scenario) {
+  Recording out;
+  out.log.sensors = out.log.estimate = scenario.rates.estimator;
   if (const ConfigNode* node = scenario.tree.find("recording")) {
     ConfigReader in(*node, "recording");
-    options.read(in);
+    out.log.read(in);
+    out.checkpoint_period = in.durationOr("checkpoint_period_s", SimDuration::zero(), {0, 1e5});
     in.finish();
   }
-  return options;
+  return out;
 }
+
+/// Leaves a checkpoint at the first event at or after each multiple of a period.
+class CheckpointKeeper {
+ public:
+  CheckpointKeeper(SimDuration period, const RunFolder& folder) : period_(period), folder_(folder) {}
+
+  void startAt(SimTime start) {
+    if (period_ > SimDuration::zero()) next_ = firstAfter(start);
+  }
+  /// Between two events.
+  void consider(const StepMaster& master) {
+    if (master.time() < next_) return;
+    writeCheckpoint(master.save(), folder_);
+    next_ = firstAfter(master.time());
+  }
+
+ private:
+  SimTime firstAfter(SimTime t) const {
+    return kSimStart + ((t - kSimStart) / period_ + 1) * period_;
+  }
+
+  SimDuration period_;
+  const RunFolder& folder_;
+  SimTime next_ = SimTime::max();
+};
 
 /// Whether the requirements ask for a fall (`fell: {above: 0}`): an experiment that is to show that
 /// a controller fails. Only then may a run that fell pass.
@@ -60,13 +92,15 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out,
   RobotController controller(scenario, calendar);
   const std::vector<std::string> known_metrics = RunMetrics::names(controller);
   judge(scenario.requirements, {}, known_metrics);
-  readRecorderOptions(scenario, "");
+  Recording recording = readRecording(scenario);
   checkPlant(scenario);
   RunMetrics metrics(scenario);
 
   const RunFolder folder = RunFolder::create(out, scenario.name);
   writeScenario(scenario, folder.path());
-  writeManifest(scenario, folder);
+  writeManifest(scenario, folder,
+                options.start ? std::optional<SimTime>(options.start->time) : std::nullopt);
+  if (options.start) writeStart(*options.start, folder);
   if (options.started) options.started(folder);
 
   const int core = options.pin && !options.in_process ? preferredCore() : -1;
@@ -83,9 +117,11 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out,
   const auto planned_plans =
       static_cast<std::size_t>(scenario.duration / scenario.rates.planner) + 1;
   controller.timePlans(wallNs, planned_plans);
-  Recorder recorder(readRecorderOptions(scenario, folder.logFile()));
+  recording.log.log_path = folder.logFile();
+  Recorder recorder(recording.log);
 
   MasterOptions master_options;
+  if (options.start) master_options.start = options.start->time;
   master_options.end = kSimStart + scenario.duration;
   master_options.stop = options.stop;
   StepMaster master(plant.participant(), controller, calendar, &recorder, master_options);
@@ -96,9 +132,16 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out,
   });
 
   const auto started = WallTime::now();
-  master.initialize();
+  if (options.start) {
+    master.restore(*options.start);
+  } else {
+    master.initialize();
+  }
+  CheckpointKeeper checkpoints(recording.checkpoint_period, folder);
+  checkpoints.startAt(master.time());
   bool replaced = toNs(options.replace_plant_at) < 0;
   do {
+    checkpoints.consider(master);
     if (!replaced && master.time() >= options.replace_plant_at) {
       replacePlant(master, plant);
       replaced = true;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "core/time.hpp"
 #include "cosim/lcm_transport.hpp"
 #include "cosim/serve.hpp"
+#include "cosim/step_master.hpp"
 #include "experiment/run_folder.hpp"
 #include "experiment/scenario.hpp"
 #include "experiment/verdict.hpp"
@@ -33,6 +35,8 @@ struct RunOptions {
   SimTime replace_plant_at = simTimeFromNs(-1);
   /// Silence after which the plant counts as lost.
   std::chrono::milliseconds patience{10'000};
+  /// What to begin with instead of the beginning: see adaptState().
+  std::optional<Checkpoint> start;
   bool write_report = true;
   const std::atomic<bool>* stop = nullptr;
   /// Called once the folder is there and before anything is simulated.

@@ -20,6 +20,9 @@ class RunFolder {
   std::string logFile() const { return path_ + "/run.lcmlog"; }
   std::string summaryFile() const { return path_ + "/summary.json"; }
   std::string timingFile() const { return path_ + "/timing.json"; }
+  /// Of a run that continues another: what it began with.
+  std::string startFile() const { return path_ + "/start.checkpoint"; }
+  std::string checkpointsFolder() const { return path_ + "/checkpoints"; }
   std::string reportFile() const { return path_ + "/report.html"; }
 
  private:

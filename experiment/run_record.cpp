@@ -31,11 +31,13 @@ Json percentilesUs(const std::vector<PlanTimes>& plans, Get get) {
 
 }  // namespace
 
-void writeManifest(const Scenario& scenario, const RunFolder& folder) {
+void writeManifest(const Scenario& scenario, const RunFolder& folder,
+                   std::optional<SimTime> begins_at) {
   Json m;
   m["scenario"] = scenario.name;
   m["seed"] = scenario.seed;
   m["config_digest"] = scenario.configDigest();
+  if (begins_at) m["begins_at_s"] = toSeconds(*begins_at);
   for (const auto& [key, value] : buildInfo()) m["build"][key] = value;
   writeTextFile(folder.manifestFile(), m.dump(2) + "\n");
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,7 +14,9 @@ namespace ballbot {
 
 /// What ran: versions, seed and digests. Written before the run, so that an interrupted one can
 /// still be told apart. @throw OutputError
-void writeManifest(const Scenario& scenario, const RunFolder& folder);
+/// @param begins_at  of a run that continues another
+void writeManifest(const Scenario& scenario, const RunFolder& folder,
+                   std::optional<SimTime> begins_at = std::nullopt);
 
 /// Metrics and verdicts; the same object that `ballbot run --json` prints.
 nlohmann::ordered_json summaryJson(const Scenario& scenario, const RunResult& result);

@@ -129,6 +129,10 @@ void exportFmu(const ConfigNode& scenario, const std::string& urdf_path, const F
   entries.push_back({"resources/scenario.yaml", yaml});
   entries.push_back({"resources/robot.urdf", urdf});
   entries.push_back({"documentation/index.html", documentation(variables, facts)});
+  // The name under which the standard wants licenses to be found.
+  entries.push_back({"documentation/licenses/license.txt",
+                     "The libraries in the folder of binaries that are not ballbot's own have the "
+                     "licenses in the files beside this one, named by their Debian packages.\n"});
   for (const fs::path& file : filesIn(libraries / "licenses")) {
     entries.push_back({"documentation/licenses/" + file.filename().string(), readFile(file)});
   }

@@ -11,6 +11,7 @@
 
 #include "cosim/log_compare.hpp"
 #include "experiment/build_info.hpp"
+#include "experiment/checkpoint_files.hpp"
 #include "experiment/run_experiment.hpp"
 #include "experiment/text_file.hpp"
 #include "tools/commands.hpp"
@@ -65,6 +66,7 @@ ExitCode checkRun(const CheckArguments& arguments) {
   RunOptions options;
   options.in_process = arguments.in_process;
   options.write_report = false;
+  options.start = readStart(original);
   options.stop = interruptFlag();
   options.progress = [&](SimTime now) {
     if (toNs(now) % 10'000'000 == 0) progress.update(toSeconds(now) / toSeconds(scenario.duration), "");

@@ -26,7 +26,7 @@ nlohmann::ordered_json metricsOf(const RunFolder& folder) {
 
 ExitCode compareRuns(const CompareArguments& arguments) {
   const RunFolder a = RunFolder::open(arguments.a), b = RunFolder::open(arguments.b);
-  const auto difference = compareLogs(a.logFile(), b.logFile());
+  const auto difference = compareLogs(a.logFile(), b.logFile(), RunBegin::kMayBeLater);
   const nlohmann::ordered_json metrics_a = metricsOf(a), metrics_b = metricsOf(b);
   if (arguments.json) {
     nlohmann::ordered_json out;

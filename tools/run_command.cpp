@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cosim/lcm_transport.hpp"
+#include "experiment/continue_run.hpp"
 #include "experiment/run_experiment.hpp"
 #include "experiment/run_record.hpp"
 #include "tools/commands.hpp"
@@ -19,7 +20,7 @@ namespace ballbot {
 namespace {
 
 struct RunArguments {
-  std::string scenario, out;
+  std::string scenario, from, out;
   std::string lcm_url, channel = "BALLBOT";
   std::vector<std::string> overrides;
   std::optional<std::uint64_t> seed;
@@ -28,11 +29,37 @@ struct RunArguments {
   double patience_s = 10;
 };
 
-ExitCode runScenario(const RunArguments& arguments) {
-  const Scenario scenario = loadScenario(arguments.scenario, arguments.overrides, arguments.seed);
+/// What a run begins with that goes on from a moment of another.
+Checkpoint startFrom(const RunPoint& from, const Scenario& changed, bool quiet) {
+  const RunFolder run = RunFolder::open(from.run);
+  const Scenario original = loadScenario(run.scenarioFile());
+  if (from.time >= kSimStart + changed.duration) {
+    throw InputError(fmt::format("--from is at {:.9g} s, but the run ends at {:.9g} s; try --set duration_s=...",
+                                 toSeconds(from.time), toSeconds(changed.duration)));
+  }
+  Progress progress("to " + toText(from.time), quiet);
+  ReplayOptions replay;
+  replay.stop = interruptFlag();
+  replay.progress = [&](SimTime now) {
+    if (toNs(now) % 10'000'000 == 0) progress.update(toSeconds(now) / toSeconds(from.time), "");
+  };
+  const Checkpoint start = adaptState(stateOfRun(run, from.time, replay), original, changed);
+  progress.finish();
+  return start;
+}
 
-  Progress progress(scenario.name, arguments.quiet);
+ExitCode runScenario(const RunArguments& arguments) {
+  std::optional<RunPoint> from;
+  if (!arguments.from.empty()) from = parseRunPoint(arguments.from);
+  if (!from && arguments.scenario.empty()) {
+    throw InputError("run: give a scenario, or --from and a moment of a run");
+  }
+  const std::string file = from ? RunFolder::open(from->run).scenarioFile() : arguments.scenario;
+  const Scenario scenario = loadScenario(file, arguments.overrides, arguments.seed);
+
   RunOptions options;
+  if (from) options.start = startFrom(*from, scenario, arguments.quiet);
+  Progress progress(scenario.name, arguments.quiet);
   options.in_process = arguments.in_process;
   options.lcm_url = arguments.lcm_url;
   options.channel = arguments.channel;
@@ -99,6 +126,11 @@ void addRunCommand(CLI::App& program, ExitCode& result) {
   CLI::App* command = program.add_subcommand("run", "Run one scenario and leave a run folder");
   const auto a = std::make_shared<RunArguments>();
   addSharedOptions(command, a);
+  CLI::Option* scenario = command->get_option("scenario")->required(false);
+  command
+      ->add_option("--from", a->from,
+                   "RUN@TIME: go on from a moment of a recorded run, with its scenario and --set")
+      ->excludes(scenario);
   CLI::Option* in_process =
       command->add_flag("--in-process", a->in_process, "Controller and plant in one process; same bits, no LCM");
   command->add_option("--lcm-url", a->lcm_url,
@@ -110,6 +142,7 @@ void addRunCommand(CLI::App& program, ExitCode& result) {
       "Examples:\n"
       "  ballbot run configs/scenarios/balance.yaml\n"
       "  ballbot run configs/scenarios/push.yaml --seed 7 --set plant.fidelity.actuators=ideal --json\n"
+      "  ballbot run --from runs/push-001@4.2s --set controller.kind=lqr\n"
       "  ballbot run configs/scenarios/push.yaml --lcm-url 'udpm://239.255.76.67:7667?ttl=0'\n"
       "Exit codes: 0 passed, 1 a requirement was missed, 2 bad input, 3 a participant was lost,\n"
       "4 output could not be written, 130 interrupted.");

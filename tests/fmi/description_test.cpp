@@ -161,8 +161,8 @@ TEST_P(DescriptionTest, EqualExportsGiveEqualBytesAndHoldWhatIsNeeded) {
   const std::string again = fmu.folder + ".again";
   exportFmu(testScenario(), testUrdf(), how, again);
   EXPECT_TRUE(readFile(again) == readFile(fmu.file));
-  for (const char* name :
-       {"resources/scenario.yaml", "resources/robot.urdf", "documentation/index.html"}) {
+  for (const char* name : {"resources/scenario.yaml", "resources/robot.urdf",
+                           "documentation/index.html", "documentation/licenses/license.txt"}) {
     EXPECT_TRUE(zipHas(fmu.file, name)) << name;
   }
   EXPECT_TRUE(fmu.description.has_binary);
