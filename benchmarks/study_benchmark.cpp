@@ -29,8 +29,8 @@ void study(benchmark::State& state) {
     const auto timing = nlohmann::json::parse(file);
     state.SetIterationTime(timing.at("wall_s"));
     state.counters["cases_per_minute_per_core"] =
-        timing.at("cases_per_minute_per_job").get<double>();
-    state.counters["share_of_time_in_runs"] = timing.at("share_of_time_in_runs").get<double>();
+        timing.at("cases_per_minute_per_core").get<double>();
+    state.counters["share_of_cpu_in_runs"] = timing.at("share_of_cpu_in_runs").get<double>();
   }
   fs::remove_all(out);
 }

@@ -49,12 +49,6 @@ std::optional<BoundarySearch::Bracket> BoundarySearch::bracket(Level level) cons
   return Bracket{line[i - 1].first, line[i].first};
 }
 
-double BoundarySearch::middle(const Bracket& b) const {
-  const double value =
-      range_.logarithmic ? std::sqrt(b.failing * b.passing) : 0.5 * (b.failing + b.passing);
-  return range_.whole ? std::round(value) : value;
-}
-
 std::vector<double> BoundarySearch::next() const {
   std::vector<double> wanted;
   for (const double end : {range_.low, range_.high}) {
@@ -65,7 +59,7 @@ std::vector<double> BoundarySearch::next() const {
     const auto b = bracket(level);
     if (!b || std::abs(b->passing - b->failing) <= resolution_ * std::max(b->passing, b->failing))
       continue;
-    const double value = middle(*b);
+    const double value = range_.between(b->failing, b->passing);
     if (known_.count(value) == 0 &&
         std::find(wanted.begin(), wanted.end(), value) == wanted.end()) {
       wanted.push_back(value);

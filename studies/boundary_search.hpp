@@ -57,7 +57,6 @@ class BoundarySearch {
   enum class Level { kSurelyFails, kPasses, kSurelyPasses };
   bool holds(Level level, const RateEstimate& rate) const;
   std::optional<Bracket> bracket(Level level) const;
-  double middle(const Bracket& b) const;
 
   AxisRange range_;
   double rate_, resolution_;

@@ -21,7 +21,7 @@ std::string CaseResult::toJson() const {
   j["simulated_s"] = simulated_s;
   j["metrics"] = metrics;
   j["trajectory_digest"] = trajectory_digest;
-  j["wall_s"] = wall_s;
+  j["cpu_s"] = cpu_s;
   return j.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -39,7 +39,7 @@ CaseResult CaseResult::fromJson(const std::string& text) {
     r.simulated_s = j.at("simulated_s");
     r.metrics = j.at("metrics").get<std::map<std::string, double>>();
     r.trajectory_digest = j.at("trajectory_digest");
-    r.wall_s = j.at("wall_s");
+    r.cpu_s = j.at("cpu_s");
     return r;
   } catch (const nlohmann::json::exception& e) {
     throw InputError(std::string("not the record of a case: ") + e.what());

@@ -28,7 +28,7 @@ struct CaseResult {
   double simulated_s = 0;
   std::map<std::string, double> metrics;
   std::string trajectory_digest;
-  double wall_s = 0;  ///< a fact of the machine: never in a table
+  double cpu_s = 0;  ///< processor time of its run, a fact of the machine: never in a table
 
   std::string toJson() const;
   /// @throw InputError if `text` is not what toJson() writes.

@@ -3,12 +3,20 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include "experiment/run_experiment.hpp"
 #include "experiment/scenario_variants.hpp"
 
 namespace ballbot {
 namespace {
+
+/// Of this process [s].
+double processorSeconds() {
+  timespec t{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
 
 std::string whyNotPassed(const RunResult& run) {
   if (run.fell) return "fell at " + toText(run.end);
@@ -34,7 +42,9 @@ CaseResult runCase(const ConfigNode& scenario_tree, const StudyCase& c, const st
     options.in_process = true;
     if (!keep) recordNothing(scenario);
     options.write_report = keep;
+    const double started_s = processorSeconds();
     const RunResult run = runExperiment(scenario, folder, options);
+    result.cpu_s = processorSeconds() - started_s;
     result.outcome = run.passed ? CaseOutcome::kPassed
                      : run.fell ? CaseOutcome::kFell
                                 : CaseOutcome::kMissed;
@@ -42,7 +52,6 @@ CaseResult runCase(const ConfigNode& scenario_tree, const StudyCase& c, const st
     result.simulated_s = toSeconds(run.end);
     result.metrics = run.metrics;
     result.trajectory_digest = run.trajectory_digest;
-    result.wall_s = run.wall_seconds;
   } catch (const OutputError&) {
     throw;  // the disk is at fault, not the case
   } catch (const Error& e) {

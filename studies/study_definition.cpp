@@ -244,6 +244,11 @@ ReportDefinition readReport(ConfigReader in, const Study& study) {
 
 }  // namespace
 
+double AxisRange::between(double a, double b) const {
+  const double value = logarithmic ? std::sqrt(a * b) : 0.5 * (a + b);
+  return whole ? std::round(value) : value;
+}
+
 std::size_t Study::axisIndex(const std::string& axis_name) const {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < axes.size(); ++i) {

@@ -33,6 +33,10 @@ struct AxisRange {
   double low = 0, high = 0;
   bool logarithmic = false;
   bool whole = false;  ///< only whole numbers
+
+  double middle() const { return between(low, high); }
+  /// In the middle of two values, on the range's scale.
+  double between(double a, double b) const;
 };
 
 /// Something that is varied: one or more configuration paths that change together.

@@ -23,7 +23,7 @@ void StudyEngine::run(const std::vector<StudyCase>& cases) {
   launcher_.launch(missing, [&](const CaseResult& result) {
     results_[result.id] = result;
     ++ran_now_;
-    wall_now_s_ += result.wall_s;
+    cpu_now_s_ += result.cpu_s;
     if (progress_) progress_(++done, missing.size());
   });
 }

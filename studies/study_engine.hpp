@@ -26,8 +26,8 @@ class StudyEngine {
   const std::map<std::string, CaseResult>& results() const { return results_; }
   const CaseResult& result(const StudyCase& c) const { return results_.at(c.id); }
   std::size_t ranNow() const { return ran_now_; }
-  double wallSecondsNow() const {
-    return wall_now_s_;
+  double cpuSecondsNow() const {
+    return cpu_now_s_;
   }  ///< in runs, over all cases run by this process
 
   int count(CaseOutcome outcome) const;
@@ -41,7 +41,7 @@ class StudyEngine {
   std::vector<StudyCase> cases_;
   std::map<std::string, std::size_t> known_;
   std::size_t ran_now_ = 0;
-  double wall_now_s_ = 0;
+  double cpu_now_s_ = 0;
 };
 
 }  // namespace ballbot

@@ -7,8 +7,9 @@
 #include <fmt/format.h>
 
 #include "experiment/verdict.hpp"
-#include "report/svg_figure.hpp"
 #include "studies/setting_text.hpp"
+#include "studies/study_answer.hpp"
+#include "studies/study_figures.hpp"
 #include "studies/study_style.hpp"
 
 namespace ballbot {
@@ -34,81 +35,6 @@ std::string escaped(const std::string& text) {
     }
   }
   return out;
-}
-
-std::string withUnit(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
-}
-
-bool logarithmic(const StudyView& view) {
-  double low = std::numeric_limits<double>::infinity(), high = 0;
-  for (const StudyPanel& panel : view.panels) {
-    for (const StudyCurve& curve : panel.curves) {
-      for (const auto& point : curve.points) {
-        low = std::min(low, point.value);
-        high = std::max(high, point.value);
-      }
-    }
-  }
-  return low > 0 && high > 5 * low;
-}
-
-/// A line through the middle and dashed ones through the ends, of one colour.
-void addBand(SvgAxes& axes, const std::string& name, int colour, const std::vector<double>& x,
-             const std::vector<double>& middle, const std::vector<double>& low,
-             const std::vector<double>& high) {
-  axes.series.push_back({name, colour, false, x, middle});
-  axes.series.push_back({"", colour, true, x, low});
-  axes.series.push_back({"", colour, true, x, high});
-}
-
-SvgAxes successAxes(const Study& study, const StudyView& view, const StudyPanel& panel) {
-  SvgAxes axes;
-  axes.x_label = withUnit(view.along->name, view.along->unit);
-  axes.y_label = "share that passes";
-  axes.log_x = logarithmic(view);
-  int colour = 0;
-  for (const StudyCurve& curve : panel.curves) {
-    std::vector<double> x, middle, low, high;
-    for (const auto& point : curve.points) {
-      x.push_back(point.value);
-      middle.push_back(point.rate.rate());
-      low.push_back(point.rate.low);
-      high.push_back(point.rate.high);
-    }
-    addBand(axes, curve.name.empty() ? "all" : curve.name, colour++ % 6, x, middle, low, high);
-  }
-  axes.at_y.push_back({fmt::format("{:g} %", 100 * study.report.rate), study.report.rate});
-  return axes;
-}
-
-SvgAxes metricAxes(const StudyView& view, const StudyPanel& panel, const std::string& metric) {
-  SvgAxes axes;
-  axes.x_label = withUnit(view.along->name, view.along->unit);
-  axes.y_label = withUnit(metric, unitOfMetric(metric));
-  axes.log_x = logarithmic(view);
-  int colour = 0;
-  for (const StudyCurve& curve : panel.curves) {
-    std::vector<double> x, middle, low, high;
-    for (const auto& point : curve.points) {
-      std::vector<double> values;  // of runs that did not fall: others end early
-      for (const CaseResult* r : point.results) {
-        const auto it = r->metrics.find(metric);
-        if (it != r->metrics.end() && r->outcome <= CaseOutcome::kMissed)
-          values.push_back(it->second);
-      }
-      if (values.empty()) continue;
-      std::sort(values.begin(), values.end());
-      x.push_back(point.value);
-      middle.push_back(0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]));
-      low.push_back(values.front());
-      high.push_back(values.back());
-    }
-    if (!x.empty())
-      addBand(axes, curve.name.empty() ? "all" : curve.name, colour % 6, x, middle, low, high);
-    ++colour;
-  }
-  return axes;
 }
 
 /// Rows: curves. Columns: places along the axis. Each cell how many of how many passed, with a
@@ -200,51 +126,6 @@ std::string extremes(const Study& study, const StudyEngine& engine) {
 
 }  // namespace
 
-std::vector<StudyFigure> studyFigures(const Study& study, const StudyView& view) {
-  std::vector<StudyFigure> out;
-  int number = 0;
-  for (const StudyPanel& panel : view.panels) {
-    ++number;
-    const std::string title = panel.name.empty() ? study.name : panel.name;
-    std::vector<SvgAxes> axes = {successAxes(study, view, panel)};
-    for (const std::string& metric : study.report.metrics) {
-      SvgAxes more = metricAxes(view, panel, metric);
-      if (!more.series.empty()) axes.push_back(std::move(more));
-    }
-    out.push_back({fmt::format("{}-{}.svg", study.name, number), title, svgFigure(title, axes)});
-  }
-  return out;
-}
-
-std::vector<std::string> studyAnswer(const Study& study, const StudyView& view) {
-  std::vector<std::string> out;
-  if (!view.along) return out;
-  for (const StudyPanel& panel : view.panels) {
-    for (const StudyCurve& curve : panel.curves) {
-      if (curve.points.size() < 2) continue;
-      std::string who = panel.name;
-      if (view.curves)
-        who += fmt::format("{}{} {}", who.empty() ? "" : ", ", view.curves->name, curve.name);
-      if (who.empty()) who = study.name;
-      if (!view.numeric) {
-        std::string shares;
-        for (const auto& point : curve.points) {
-          shares += fmt::format("{}{} {}/{}", shares.empty() ? "" : ", ", point.label,
-                                point.rate.passed, point.rate.count);
-        }
-        out.push_back(fmt::format("{}: passed {}.", who, shares));
-        continue;
-      }
-      int cases = 0;
-      for (const auto& point : curve.points) cases += point.rate.count;
-      const Boundary b = curve.boundary(study.report.rate);
-      out.push_back(fmt::format("{}: along {}, {}; from {} cases.", who, view.along->name,
-                                toText(b, study.report.rate, view.along->unit), cases));
-    }
-  }
-  return out;
-}
-
 std::string studyPage(const Study& study, const StudyEngine& engine,
                       const std::vector<PlaceBoundary>& boundaries) {
   const StudyView view = arrange(study, engine.cases(), engine.results());
@@ -273,6 +154,8 @@ std::string studyPage(const Study& study, const StudyEngine& engine,
         escaped(toText(b.boundary, study.search->rate, study.axis(study.search->axis).unit)));
   }
   if (boundaries.empty()) {
+    for (const std::string& sentence : studyComparison(study, view))
+      answer += fmt::format("<li><strong>{}</strong></li>", escaped(sentence));
     for (const std::string& sentence : studyAnswer(study, view))
       answer += fmt::format("<li>{}</li>", escaped(sentence));
   }
@@ -281,9 +164,8 @@ std::string studyPage(const Study& study, const StudyEngine& engine,
     const std::vector<StudyFigure> figures = studyFigures(study, view);
     for (std::size_t i = 0; i < view.panels.size(); ++i) {
       body += fmt::format(
-          "<section><h2>{}</h2>{}<figure>{}<figcaption>Solid: share that passes, or median of runs "
-          "that stayed up. "
-          "Dashed: its 95 % interval (Wilson), or least and "
+          "<section><h2>{}</h2>{}<figure>{}<figcaption>Lines: share that passes, or median of runs "
+          "that stayed up. Bands: its 95 % interval (Wilson), or least and "
           "largest.</figcaption></figure></section>",
           escaped(figures[i].title), heatMap(view, view.panels[i]), figures[i].svg);
     }

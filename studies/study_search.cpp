@@ -16,12 +16,12 @@ RateEstimate rateAt(const std::vector<StudyCase>& cases, const StudyEngine& engi
 
 }  // namespace
 
-std::vector<StudyCase> searchEndCases(const Study& study) {
+std::vector<StudyCase> searchProbeCases(const Study& study) {
   const std::size_t searched = study.axisIndex(study.search->axis);
   const StudyAxis& axis = study.axes[searched];
   std::vector<StudyCase> out;
   for (std::vector<AxisOption> place : gridPlaces(study)) {
-    for (const double value : {axis.range->low, axis.range->high}) {
+    for (const double value : {axis.range->low, axis.range->middle(), axis.range->high}) {
       place[searched] = optionAt(axis, value);
       for (StudyCase& c : casesAt(study, place)) out.push_back(std::move(c));
     }

@@ -13,8 +13,8 @@ struct PlaceBoundary {
   Boundary boundary;
 };
 
-/// Cases at both ends of the search range, to be checked before anything runs.
-std::vector<StudyCase> searchEndCases(const Study& study);
+/// Cases at both ends and in the middle of the search range, to be checked before anything runs.
+std::vector<StudyCase> searchProbeCases(const Study& study);
 
 /// Bisects `study.search` at every place of the grid of the other axes, all places at once, so that
 /// there is work for every job. What is asked for next depends on results alone: a resumed search

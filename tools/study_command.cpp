@@ -30,8 +30,8 @@ struct StudyArguments {
   std::vector<double> between;
   double rate = 0.5;
   int jobs = 0, cases_per_task = 0;
-  bool resume = false, retry = false, keep_runs = false, submit_only = false, json = false,
-       quiet = false;
+  bool whole = false, resume = false, retry = false, keep_runs = false, submit_only = false,
+       json = false, quiet = false;
 };
 
 int processors() {
@@ -72,12 +72,12 @@ void addSearch(Study& study, const StudyArguments& a) {
   if (a.between.size() == 2) {
     if (!(a.between[0] < a.between[1]))
       throw InputError("--between: the second number must be larger");
-    axis->range = AxisRange{a.between[0], a.between[1], a.between[0] > 0, false};
+    axis->range = AxisRange{a.between[0], a.between[1], a.between[0] > 0, a.whole};
   } else if (!axis->range) {
     std::vector<double> numbers;
     for (const AxisOption& option : axis->options) numbers.push_back(option.number.value_or(0));
     const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
-    axis->range = AxisRange{*low, *high, *low > 0, false};
+    axis->range = AxisRange{*low, *high, *low > 0, a.whole};
   }
   axis->options.clear();
   SearchDefinition search;
@@ -88,6 +88,7 @@ void addSearch(Study& study, const StudyArguments& a) {
   note.set("axis", ConfigNode::scalar(what, false, {}));
   note.set("low", ConfigNode::scalar(numberText(axis->range->low), false, {}));
   note.set("high", ConfigNode::scalar(numberText(axis->range->high), false, {}));
+  if (axis->range->whole) note.set("whole", ConfigNode::scalar("true", false, {}));
   note.set("rate", ConfigNode::scalar(numberText(a.rate), false, {}));
   study.tree.set("search", note);
 }
@@ -128,7 +129,8 @@ ExitCode runStudy(const StudyArguments& a) {
   for (const std::string& text : a.overrides) addOverride(study, text);
   if (!a.find.empty()) addSearch(study, a);
   const ConfigNode scenario_tree = loadScenarioTree(study.scenario);
-  const std::vector<StudyCase> cases = study.search ? searchEndCases(study) : generateCases(study);
+  const std::vector<StudyCase> cases =
+      study.search ? searchProbeCases(study) : generateCases(study);
   checkCases(study, scenario_tree, cases);
 
   const StudyFolder folder = a.resume ? StudyFolder::resume(a.out, study, scenario_tree)
@@ -209,6 +211,7 @@ void addStudyCommand(CLI::App& program, ExitCode& result) {
   command->add_option("--find", a->find,
                       "boundary=AXIS or boundary=PATH: bisect to where cases stop to pass");
   command->add_option("--between", a->between, "Range of values for --find")->expected(2);
+  command->add_flag("--whole", a->whole, "Only whole numbers for --find, e.g. ticks");
   command->add_option("--rate", a->rate, "Share of seeds that must pass for --find")
       ->check(CLI::Range(0.01, 0.99))
       ->capture_default_str();
@@ -235,6 +238,8 @@ void addStudyCommand(CLI::App& program, ExitCode& result) {
       "Examples:\n"
       "  ballbot study configs/studies/smoke.yaml --jobs 2\n"
       "  ballbot study configs/studies/smoke.yaml --resume\n"
+      "  ballbot study configs/studies/smoke.yaml --find boundary=plant.transport_delay_ticks \\\n"
+      "      --between 2 100 --whole\n"
       "  ballbot study configs/studies/sea_bandwidth.yaml --launcher slurm "
       "--sbatch=--partition=short\n"
       "Exit codes: 0 every case ran (passed or not), 1 a case crashed, hung or ended in an error, "

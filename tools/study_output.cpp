@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
+#include "core/error.hpp"
 #include "experiment/text_file.hpp"
 #include "studies/setting_text.hpp"
+#include "studies/shell_command.hpp"
+#include "studies/study_answer.hpp"
+#include "studies/study_figures.hpp"
 #include "studies/study_report.hpp"
 #include "tools/hdf5_file.hpp"
 
@@ -34,6 +39,34 @@ void writeHdf5(const ResultTable& table, const std::string& path) {
     } else {
       file.addNumbers(column.name, column.numbers, column.unit);
     }
+  }
+}
+
+/// Processor time of this process or of its children that have ended [s].
+double processorSeconds(int who) {
+  rusage usage{};
+  ::getrusage(who, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// Each as SVG and, where librsvg's converter is installed, as PDF.
+void writeFigures(const std::vector<StudyFigure>& figures, const StudyFolder& folder) {
+  for (const StudyFigure& figure : figures) {
+    writeTextFile(folder.file(figure.file + ".svg"), figure.svg);
+  }
+  for (const StudyFigure& figure : figures) {
+    const std::string pdf = folder.file(figure.file + ".pdf");
+    // The date stands in the file; the same study shall give the same bytes.
+    const CommandEnd end = runCommand({"env", "SOURCE_DATE_EPOCH=0", "rsvg-convert", "--format=pdf",
+                                       "--output", pdf, folder.file(figure.file + ".svg")});
+    if (end.exit_code == 127) {
+      fmt::print(stderr, "no PDF figures: rsvg-convert is not here (Debian: librsvg2-bin)\n");
+      return;
+    }
+    if (end.exit_code != 0) throw OutputError(fmt::format("{}: {}", pdf, end.err));
   }
 }
 
@@ -103,19 +136,17 @@ void writeStudyOutput(const Study& study, const StudyEngine& engine, const Study
   summary.erase("study_folder");  // the same study gives the same file wherever it lies
   writeTextFile(folder.file("summary.json"), summary.dump(2) + "\n");
   writeTextFile(folder.file("report.html"), studyPage(study, engine, findings.boundaries));
-  for (const StudyFigure& figure :
-       studyFigures(study, arrange(study, engine.cases(), engine.results()))) {
-    writeTextFile(folder.file(figure.file), figure.svg);
-  }
+  writeFigures(studyFigures(study, arrange(study, engine.cases(), engine.results())), folder);
   Json timing;
   timing["cases_run"] = engine.ranNow();
   timing["wall_s"] = findings.wall_s;
-  timing["wall_in_runs_s"] = engine.wallSecondsNow();
   if (findings.jobs > 0 && findings.wall_s > 0) {
+    const double cpu_s = processorSeconds(RUSAGE_SELF) + processorSeconds(RUSAGE_CHILDREN);
     timing["jobs"] = findings.jobs;
-    timing["cases_per_minute_per_job"] =
-        60 * static_cast<double>(engine.ranNow()) / findings.wall_s / findings.jobs;
-    timing["share_of_time_in_runs"] = engine.wallSecondsNow() / (findings.wall_s * findings.jobs);
+    timing["cases_per_minute"] = 60 * static_cast<double>(engine.ranNow()) / findings.wall_s;
+    timing["cpu_s"] = cpu_s;
+    timing["cases_per_minute_per_core"] = 60 * static_cast<double>(engine.ranNow()) / cpu_s;
+    timing["share_of_cpu_in_runs"] = engine.cpuSecondsNow() / cpu_s;
   }
   writeTextFile(folder.file("timing.json"), timing.dump(2) + "\n");
 }
@@ -134,9 +165,9 @@ std::string studyText(const Study& study, const StudyEngine& engine, const Study
                        r.reason, commandLine(c.command(study.scenario)));
   }
   if (!study.search) {
-    for (const std::string& sentence :
-         studyAnswer(study, arrange(study, engine.cases(), engine.results())))
-      out += "  " + sentence + "\n";
+    const StudyView view = arrange(study, engine.cases(), engine.results());
+    for (const std::string& sentence : studyAnswer(study, view)) out += "  " + sentence + "\n";
+    for (const std::string& sentence : studyComparison(study, view)) out += "  " + sentence + "\n";
   }
   for (const PlaceBoundary& b : findings.boundaries) {
     out += fmt::format("  {}: {}\n", placeText(study, b),
