@@ -13,6 +13,7 @@
 #include "experiment/run_metrics.hpp"
 #include "experiment/run_record.hpp"
 #include "experiment/run_report.hpp"
+#include "experiment/scenario_variants.hpp"
 
 namespace ballbot {
 namespace {
@@ -75,6 +76,15 @@ bool askForFall(const std::vector<MetricLimit>& requirements) {
   });
 }
 
+/// Reads what stands beside the controller in a scenario. @return every metric its run can have
+std::vector<std::string> checkBeside(const RobotController& controller, const Scenario& scenario) {
+  std::vector<std::string> known = RunMetrics::names(controller);
+  judge(scenario.requirements, {}, known);
+  readRecording(scenario);
+  checkPlant(scenario);
+  return known;
+}
+
 /// Saves, kills the plant, starts another and continues, between two events.
 void replacePlant(StepMaster& master, PlantLink& plant) {
   const StateBlob saved = master.save().toBlob();
@@ -85,15 +95,19 @@ void replacePlant(StepMaster& master, PlantLink& plant) {
 
 }  // namespace
 
+void checkScenario(const Scenario& scenario) {
+  EventCalendar calendar(scenario.rates.base_step);
+  checkBeside(RobotController(scenario, calendar), scenario);
+  RunMetrics metrics(scenario);
+}
+
 RunResult runExperiment(const Scenario& scenario, const std::string& out,
                         const RunOptions& options) {
   // Everything that can be wrong with the scenario is said before anything is started.
   EventCalendar calendar(scenario.rates.base_step);
   RobotController controller(scenario, calendar);
-  const std::vector<std::string> known_metrics = RunMetrics::names(controller);
-  judge(scenario.requirements, {}, known_metrics);
+  const std::vector<std::string> known_metrics = checkBeside(controller, scenario);
   Recording recording = readRecording(scenario);
-  checkPlant(scenario);
   RunMetrics metrics(scenario);
 
   const RunFolder folder = RunFolder::create(out, scenario.name);

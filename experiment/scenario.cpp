@@ -8,6 +8,7 @@
 #include "core/digest.hpp"
 #include "core/error.hpp"
 #include "core/yaml_file.hpp"
+#include "experiment/scenario_variants.hpp"
 #include "experiment/text_file.hpp"
 #include "fmi/coupling_config.hpp"
 #include "model/robot_reader.hpp"
@@ -91,18 +92,28 @@ std::string Scenario::configDigest() const {
   return digest.hex();
 }
 
-Scenario loadScenario(const std::string& path, const std::vector<std::string>& overrides,
-                      std::optional<std::uint64_t> seed) {
+ConfigNode loadScenarioTree(const std::string& path) {
   if (fs::is_directory(path)) {
     throw InputError(fmt::format("{}: is a folder; a scenario is a YAML file such as "
                                  "configs/scenarios/balance.yaml",
                                  path));
   }
-  Scenario s;
-  s.tree = loadYamlFile(path);
-  if (s.tree.kind() != ConfigNode::Kind::kMap) {
+  ConfigNode tree = loadYamlFile(path);
+  if (tree.kind() != ConfigNode::Kind::kMap) {
     throw InputError(fmt::format("{}: a scenario must be a mapping of keys to values", path));
   }
+  return tree;
+}
+
+Scenario loadScenario(const std::string& path, const std::vector<std::string>& overrides,
+                      std::optional<std::uint64_t> seed) {
+  return readScenario(loadScenarioTree(path), overrides, seed);
+}
+
+Scenario readScenario(ConfigNode tree, const std::vector<std::string>& overrides,
+                      std::optional<std::uint64_t> seed) {
+  Scenario s;
+  s.tree = std::move(tree);
   for (const std::string& text : overrides) applyOverride(s.tree, text);
   if (seed) {
     s.tree.set("seed", ConfigNode::scalar(std::to_string(*seed), false, {"--seed", 0, 0}));
@@ -127,6 +138,14 @@ Scenario loadScenario(const std::string& path, const std::vector<std::string>& o
   }
   s.urdf_path = requireUrdf(s.section("robot"));
   return s;
+}
+
+void recordNothing(Scenario& scenario) {
+  ConfigNode recording = ConfigNode::map({});
+  for (const char* key : {"sensors_period_ms", "truth_period_ms", "estimate_period_ms", "plan_period_ms", "command_period_ms"}) {
+    recording.set(key, ConfigNode::scalar("-1", false, {}));
+  }
+  scenario.tree.set("recording", recording);
 }
 
 void writeScenario(const Scenario& scenario, const std::string& folder) {

@@ -1,10 +1,16 @@
 #include "model/urdf_loader.hpp"
 
 #include <cmath>
+#include <fstream>
+#include <map>
+#include <mutex>
 #include <set>
+#include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "model/urdf_tree.hpp"
 
 namespace ballbot {
@@ -122,10 +128,8 @@ Eigen::Isometry3d readFixedFrame(const UrdfTree& tree, const std::string& parent
   return toTransform(joint.parent_to_joint_origin_transform);
 }
 
-}  // namespace
-
-UrdfRobot loadUrdf(const std::string& path) {
-  const UrdfTree tree(path);
+UrdfRobot parse(const std::string& path, const std::string& text) {
+  const UrdfTree tree(path, text);
   if (tree.link("base").parent_joint) tree.fail("link 'base' must be the root of the tree");
 
   UrdfRobot robot;
@@ -142,6 +146,23 @@ UrdfRobot loadUrdf(const std::string& path) {
   readFixedFrame(tree, "base", "imu");
   p.p_BI_B = parallelOrigin(tree, tree.jointBetween("base", "imu"));
   return robot;
+}
+
+}  // namespace
+
+UrdfRobot loadUrdf(const std::string& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  if (!file) throw InputError(fmt::format("{}: cannot be read", path));
+  // The parts of one run and the cases of a study all ask for the same robot: parsed once.
+  static std::mutex guard;
+  static std::map<std::pair<std::string, std::string>, UrdfRobot> known;
+  const std::lock_guard<std::mutex> lock(guard);
+  const std::pair<std::string, std::string> key(path, text.str());
+  auto found = known.find(key);
+  if (found == known.end()) found = known.emplace(key, parse(path, key.second)).first;
+  return found->second;
 }
 
 }  // namespace ballbot

@@ -1,7 +1,5 @@
 #include "model/urdf_tree.hpp"
 
-#include <fstream>
-#include <sstream>
 
 #include <Eigen/Eigenvalues>
 #include <console_bridge/console.h>
@@ -68,14 +66,10 @@ const char* jointTypeName(const urdf::Joint& joint) {
   }
 }
 
-UrdfTree::UrdfTree(const std::string& path) : path_(path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (!file) fail("cannot be read");
+UrdfTree::UrdfTree(const std::string& path, const std::string& text) : path_(path) {
   CapturedLog log;
   try {
-    model_ = urdf::parseURDF(text.str());
+    model_ = urdf::parseURDF(text);
   } catch (const std::exception& e) {
     fail(fmt::format("is not a valid URDF: {}", e.what()));
   }

@@ -15,8 +15,9 @@ namespace ballbot {
 /// InputError that begins with the file and names the link or joint.
 class UrdfTree {
  public:
-  /// @throw InputError if the file cannot be read or urdfdom finds no robot in it.
-  explicit UrdfTree(const std::string& path);
+  /// @param path  where `text` stands, for messages
+  /// @throw InputError if urdfdom finds no robot in it.
+  UrdfTree(const std::string& path, const std::string& text);
 
   const std::string& name() const { return model_->name_; }
 

@@ -34,6 +34,7 @@ class DriveBank {
     JointEncoders::visitState(self.encoders_, visit);
     for (auto& drive : self.drives_) TorqueDrive::visitState(drive, visit);
     visit(self.ticks_);
+    for (auto& wanted : self.inserted_delay_) visit(wanted);
     for (auto& command : self.on_the_way_) {
       visit(command.torque);
       visit(command.position);
@@ -44,10 +45,15 @@ class DriveBank {
   }
 
  private:
+  /// The wheels' wanted torques as they come out of a gain and delay put into their loop [N m].
+  void passInsertion(JointVector& wanted);
+
   JointEncoders encoders_;
   std::vector<TorqueDrive> drives_;
   std::int64_t ticks_ = 0;
   std::vector<ActuatorCommand> on_the_way_;  ///< ring, one more than the delay
+  double inserted_gain_;
+  std::vector<Vector3> inserted_delay_;  ///< wheel torques wanted, ring; empty without a delay
 };
 
 }  // namespace ballbot

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "model/robot_parameters.hpp"
 #include "model/state.hpp"
+#include "plant/floor_contact.hpp"
 
 namespace ballbot {
 
@@ -23,6 +25,11 @@ struct MultibodyOptions {
   JointVector gear_ratio = JointVector::Constant(50);
   /// The ball may spin about the vertical: a third degree of freedom of the ball.
   bool ball_spin = false;
+  /// The ball lies on a floor that gives way, instead of rolling on a rigid one: it has all of its
+  /// six degrees of freedom. Needs error-controlled integration.
+  std::optional<FloorContactParameters> floor;
+  double spin_lever = 0;         ///< of such a floor: torque about the vertical per load [m]
+  double spin_smoothing = 0.02;  ///< [rad/s]
 };
 
 /// Bodies an external force can act on.
@@ -89,10 +96,10 @@ struct RobotPose {
   Vector3 arm = Vector3::Zero();        ///< [rad]
 };
 
-/// The robot's rigid bodies on a ball that rolls on a level floor without slip, as an ordinary
-/// differential equation dy/dt = f(y, loads). y holds all coordinates and velocities; its layout
-/// is the structure's own. Not thread safe; a value of y means the same in every instance built
-/// with the same parameters.
+/// The robot's rigid bodies on a ball that rolls on a level floor without slip, or lies on one that
+/// gives way, as an ordinary differential equation dy/dt = f(y, loads). y holds all coordinates and
+/// velocities; its layout is the structure's own. Not thread safe; a value of y means the same in
+/// every instance built with the same parameters.
 class Multibody {
  public:
   virtual ~Multibody() = default;

@@ -18,18 +18,35 @@ namespace {
 
 constexpr std::uint32_t kBlobVersion = 1;
 
+const char* nameOf(ContactLevel contact) {
+  switch (contact) {
+    case ContactLevel::kRolling: return "rolling";
+    case ContactLevel::kRollingWithSpinFriction: return "rolling_with_spin_friction";
+    case ContactLevel::kCompliant: break;
+  }
+  return "compliant";
+}
+
+std::unique_ptr<Integrator> makeIntegrator(const PlantConfig& c, int dim) {
+  if (c.fidelity.contact != ContactLevel::kCompliant) return std::make_unique<RungeKutta4>(dim);
+  return std::make_unique<ErrorControlledStep>(dim, c.integration_tolerance);
+}
+
 /// What decides which numbers a saved state holds, in words.
 std::string stateForm(const PlantConfig& c) {
   const PlantFidelity& f = c.fidelity;
   return fmt::format(
       "multibody {}, actuators {}, contact {}, drive period {}, delay of {} ticks, IMU period "
-      "{}{}{}",
+      "{}{}{}{}",
       f.multibody == MultibodyStructure::kFull ? "full" : "reduced_wheels",
       f.actuators == ActuatorLevel::kIdeal ? "ideal" : "series_elastic",
-      f.contact == ContactLevel::kRolling ? "rolling" : "rolling_with_spin_friction",
+      nameOf(f.contact),
       toText(c.drive_period), f.transport_delay ? c.transport_delay_ticks : 0,
       toText(c.sensors.imu.period), c.surroundings.door ? ", a door" : "",
-      c.surroundings.wall ? ", a wall" : "");
+      c.surroundings.wall ? ", a wall" : "",
+      c.wheel_loop.delay_ticks > 0
+          ? fmt::format(", a wheel loop delayed by {} ticks", c.wheel_loop.delay_ticks)
+          : "");
 }
 
 void requireFinite(const ActuatorCommand& command, SimTime t) {
@@ -63,7 +80,7 @@ class Plant::Impl {
         motion_capture_(config.motion_capture, config.seed),
         faults_(config.faults, config.sensors, config.seed),
         dynamics_(config),
-        rk4_(dynamics_.dim()),
+        integrator_(makeIntegrator(config, dynamics_.dim())),
         state_(config, dynamics_.dim()) {
     reset(kSimStart);
   }
@@ -221,7 +238,8 @@ class Plant::Impl {
     addExternalForces(dynamics_.forces());
 
     const SimTime next = nextEvent(end);
-    rk4_.step(dynamics_, toSeconds(s.now - s.last_tick), toSeconds(next - s.now), s.y.data());
+    integrator_->step(dynamics_, toSeconds(s.now - s.last_tick), toSeconds(next - s.now),
+                      s.y.data());
     if (!held) dynamics_.project(s.y.data());
     for (const double value : s.y) {
       if (!std::isfinite(value)) {
@@ -335,7 +353,7 @@ class Plant::Impl {
   FaultInjector faults_;
   ExternalForces external_;
   PlantDynamics dynamics_;
-  RungeKutta4 rk4_;
+  std::unique_ptr<Integrator> integrator_;
   State state_;
   SensorFrame sensors_;
   TruthFrame truth_;

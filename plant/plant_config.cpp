@@ -21,7 +21,14 @@ PlantFidelity readFidelity(ConfigReader in) {
       {{"ideal", ActuatorLevel::kIdeal}, {"series_elastic", ActuatorLevel::kSeriesElastic}});
   f.contact = in.choiceOr("contact", f.contact,
                           {{"rolling", ContactLevel::kRolling},
-                           {"rolling_with_spin_friction", ContactLevel::kRollingWithSpinFriction}});
+                           {"rolling_with_spin_friction", ContactLevel::kRollingWithSpinFriction},
+                           {"compliant", ContactLevel::kCompliant}});
+  if (f.contact == ContactLevel::kCompliant && f.multibody != MultibodyStructure::kFull) {
+    throw InputError(
+        fmt::format("{} is compliant, for which wheels must be bodies: set "
+                    "fidelity.multibody to full",
+                    in.at("contact")));
+  }
   f.noisy_sensors = in.choiceOr("sensors", f.noisy_sensors, {{"perfect", false}, {"noisy", true}});
   f.encoder_quantisation = in.booleanOr("encoder_quantisation", f.encoder_quantisation);
   f.friction = in.booleanOr("friction", f.friction);
@@ -40,6 +47,18 @@ void readPlantSection(ConfigReader in, PlantConfig& c) {
     c.spin_friction.smoothing = spin.number("smoothing_rad_per_s", {1e-4, kInf});
     spin.finish();
   }
+  if (in.has("compliant_contact")) {
+    ConfigReader contact = in.child("compliant_contact");
+    c.integration_tolerance = contact.numberOr("tolerance", c.integration_tolerance, {1e-12, 1e-2});
+    c.floor = FloorContactParameters::read(contact);
+  }
+  if (in.has("wheel_loop_insertion")) {
+    ConfigReader insertion = in.child("wheel_loop_insertion");
+    c.wheel_loop.gain = insertion.numberOr("gain", c.wheel_loop.gain, {0, 1000});
+    c.wheel_loop.delay_ticks =
+        insertion.integerOr("delay_ticks", c.wheel_loop.delay_ticks, {0, kMaxDelayTicks});
+    insertion.finish();
+  }
   c.substep = in.durationOr("substep_us", c.substep, {1, 10'000});
   c.drive_period = in.durationOr("drive_period_us", c.drive_period, {1, 100'000});
   c.transport_delay_ticks =
@@ -52,10 +71,18 @@ void readPlantSection(ConfigReader in, PlantConfig& c) {
   }
   c.faults = readFaults(in);
   for (const Fault& fault : c.faults) {
-    if (fault.kind == Fault::Kind::kWheelSlip && c.fidelity.multibody != MultibodyStructure::kFull) {
-      throw InputError(fmt::format("{} hold a wheel_slip, for which wheels must be bodies: set "
-                                   "fidelity.multibody to full",
-                                   in.at("faults")));
+    if (fault.kind != Fault::Kind::kWheelSlip) continue;
+    if (c.fidelity.multibody != MultibodyStructure::kFull) {
+      throw InputError(
+          fmt::format("{} hold a wheel_slip, for which wheels must be bodies: set "
+                      "fidelity.multibody to full",
+                      in.at("faults")));
+    }
+    if (c.fidelity.contact == ContactLevel::kCompliant) {
+      throw InputError(
+          fmt::format("{} hold a wheel_slip, which there is not with fidelity.contact: "
+                      "compliant",
+                      in.at("faults")));
     }
   }
   in.finish();

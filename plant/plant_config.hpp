@@ -19,7 +19,7 @@ class ConfigNode;
 class ConfigReader;
 
 enum class ActuatorLevel { kIdeal, kSeriesElastic };
-enum class ContactLevel { kRolling, kRollingWithSpinFriction };
+enum class ContactLevel { kRolling, kRollingWithSpinFriction, kCompliant };
 
 /// How true to the robot the plant is; each switch is independent of the others.
 /// docs/fidelity.md says what each one adds.
@@ -36,10 +36,20 @@ struct PlantFidelity {
 };
 
 /// Friction torque of the floor on the ball's spin s about the vertical: -torque tanh(s /
-/// smoothing).
+/// smoothing). With compliant contact it goes with the load; this is then that of the robot at
+/// rest.
 struct SpinFriction {
   double torque = 0.4;      ///< [N m]
   double smoothing = 0.02;  ///< [rad/s]
+};
+
+/// A gain and a delay put into the loop at the wheel torques, to find out how much of either the
+/// loop can take. Neither is part of a robot.
+struct LoopInsertion {
+  double gain = 1;
+  int delay_ticks = 0;  ///< ticks of the drives
+
+  bool present() const { return gain != 1 || delay_ticks > 0; }
 };
 
 /// Where the robot starts, at rest. A stand holds ball, base, wheels and arm until `release`.
@@ -55,10 +65,13 @@ struct PlantConfig {
   SensorParameters sensors;
   PlantFidelity fidelity;
   SpinFriction spin_friction;
-  SimDuration substep{400'000};       ///< longest integration step
-  SimDuration drive_period{400'000};  ///< of the drives' torque loops
-  int transport_delay_ticks = 2;      ///< drive ticks from command to drive
-  bool leak_compensation = false;     ///< of the drives, docs/theory/actuator.md
+  FloorContactParameters floor;         ///< of a compliant contact
+  double integration_tolerance = 1e-6;  ///< of a compliant contact, per step
+  SimDuration substep{400'000};         ///< longest integration step
+  SimDuration drive_period{400'000};    ///< of the drives' torque loops
+  int transport_delay_ticks = 2;        ///< drive ticks from command to drive
+  bool leak_compensation = false;       ///< of the drives, docs/theory/actuator.md
+  LoopInsertion wheel_loop;             ///< between the wheels' wanted torque and their torque loop
   InitialCondition initial;
   std::vector<Push> pushes;
   std::vector<Fault> faults;

@@ -13,6 +13,11 @@ MultibodyOptions multibodyOptions(const PlantConfig& config) {
   o.structure = config.fidelity.multibody;
   o.rotors = config.fidelity.actuators == ActuatorLevel::kSeriesElastic;
   o.ball_spin = config.fidelity.contact == ContactLevel::kRollingWithSpinFriction;
+  if (config.fidelity.contact == ContactLevel::kCompliant) {
+    o.floor = config.floor;
+    o.spin_lever = config.spin_friction.torque / (config.robot.gravity * config.robot.totalMass());
+    o.spin_smoothing = config.spin_friction.smoothing;
+  }
   for (int i = 0; i < kJointCount; ++i) {
     o.rotor_inertia[i] = config.actuators.of(i).motor_inertia;
     o.gear_ratio[i] = config.actuators.of(i).gear_ratio;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Includes Simbody: for multibody_full.cpp, multibody_reduced.cpp and robot_tree.cpp only.
+// Includes Simbody: for multibody_*.cpp, turning_bodies.* and robot_tree.cpp only.
 #include <array>
 
 #include <Simbody.h>

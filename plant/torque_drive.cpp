@@ -27,8 +27,7 @@ double TorqueDrive::wantedTorque(const DriveCommand& c, const DriveReading& r) {
          c.damping * (c.velocity - r.joint_velocity);
 }
 
-double TorqueDrive::tick(const DriveCommand& command, const DriveReading& r) {
-  const double wanted = wantedTorque(command, r);
+double TorqueDrive::tick(double wanted, const DriveReading& r) {
   double motor = wanted;
   if (options_.torque_loop) {
     const double spring = p_.spring_stiffness * (r.motor_angle - r.joint_angle);

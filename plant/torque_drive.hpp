@@ -42,8 +42,8 @@ class TorqueDrive {
 
   void reset() { slow_velocity_ = 0; }
 
-  /// Motor torque to ask of the current loop until the next tick [N m].
-  double tick(const DriveCommand& command, const DriveReading& reading);
+  /// Motor torque to ask of the current loop until the next tick [N m], for a wanted joint torque.
+  double tick(double wanted, const DriveReading& reading);
 
   template <typename Self, typename Visitor>
   static void visitState(Self& self, Visitor& visit) {

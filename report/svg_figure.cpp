@@ -64,6 +64,10 @@ Span spanOf(const SvgAxes& axes, bool of_x) {
   };
   for (const SvgSeries& s : axes.series)
     for (const double v : of_x ? s.x : s.y) take(v);
+  for (const SvgBand& b : axes.bands) {
+    for (const double v : of_x ? b.x : b.low) take(v);
+    for (const double v : of_x ? b.x : b.high) take(v);
+  }
   if (!of_x) {
     for (const SvgMark& m : axes.at_y) take(m.value);
   }
@@ -110,6 +114,19 @@ std::string path(const SvgSeries& s, const Scale& sx, const Scale& sy) {
                      kColours[s.colour % 6], s.dashed ? " stroke-dasharray='7 4'" : "");
 }
 
+std::string area(const SvgBand& b, const Scale& sx, const Scale& sy) {
+  std::string forth, back;
+  for (std::size_t i = 0; i < b.x.size(); ++i) {
+    if (!sx.has(b.x[i]) || !sy.has(b.low[i]) || !sy.has(b.high[i])) continue;
+    const std::string x = number(sx(b.x[i]));
+    forth += fmt::format("{}{} {}", forth.empty() ? "M" : "L", x, number(sy(b.high[i])));
+    back = fmt::format("L{} {}", x, number(sy(b.low[i]))) + back;
+  }
+  if (forth.empty()) return "";
+  return fmt::format("<path d='{}{}Z' fill='{}' fill-opacity='0.14'/>\n", forth, back,
+                     kColours[b.colour % 6]);
+}
+
 /// Grid lines between the labelled ones of a log axis.
 std::vector<double> minorTicks(double low, double high) {
   std::vector<double> out;
@@ -150,6 +167,7 @@ std::string axesElement(const SvgAxes& axes, double top, int index) {
                      index, number(kLeft), number(top), number(kPlotWidth), number(kPlotHeight), index);
   for (const SvgMark& m : axes.at_x) out += lineElement(sx(m.value), top, sx(m.value), bottom, "class='mark'");
   for (const SvgMark& m : axes.at_y) out += lineElement(kLeft, sy(m.value), right, sy(m.value), "class='mark'");
+  for (const SvgBand& b : axes.bands) out += area(b, sx, sy);
   for (const SvgSeries& s : axes.series) out += path(s, sx, sy);
   out += "</g>\n";
   out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#333'/>\n",

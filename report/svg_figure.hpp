@@ -24,6 +24,12 @@ struct SvgSpan {
   double from = 0, to = 0;
 };
 
+/// The area between two lines, e.g. a confidence band; drawn beneath the lines.
+struct SvgBand {
+  int colour = 0;  ///< 0 to 5
+  std::vector<double> x, low, high;
+};
+
 /// One pair of axes.
 struct SvgAxes {
   std::string x_label, y_label;       ///< with units, e.g. "frequency [Hz]"
@@ -31,6 +37,7 @@ struct SvgAxes {
   std::vector<SvgSeries> series = {};
   std::vector<SvgMark> at_x = {}, at_y = {};
   std::vector<SvgSpan> shaded = {};
+  std::vector<SvgBand> bands = {};
 };
 
 /// A figure that stands alone: axes under each other, legends beside them, nothing fetched from

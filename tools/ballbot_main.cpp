@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   addHilCommand(program, result);
   addIdentifyCommand(program, result);
   addFmuCommand(program, result);
+  addStudyCommand(program, result);
   addDoctorCommand(program, result);
 
   try {

@@ -37,13 +37,13 @@ SvgSeries phase(const std::string& name, int colour, bool dashed, const LoopAnal
 
 std::string bodeFigure(const std::string& scenario_name, const LoopAnalysis& a) {
   const std::string frequency = "frequency [Hz]";
-  SvgAxes weight{frequency, "gain, weight", true, true, {}, {}, {}};
+  SvgAxes weight{frequency, "gain, weight", true, true, {}, {}, {}, {}, {}};
   weight.series = {
       curve("shaping filter |r|", 0, false, a, [](const Sample& s) { return std::abs(s.shaping); }),
       curve("effective weight R |r|\xC2\xB2", 1, false, a, [](const Sample& s) { return s.weight; })};
 
-  SvgAxes gain{frequency, "drive [dB]", true, false, {}, {}, {{"-3 dB", -3.01}}};
-  SvgAxes angle{frequency, "drive [deg]", true, false, {}, {}, {}};
+  SvgAxes gain{frequency, "drive [dB]", true, false, {}, {}, {{"-3 dB", -3.01}}, {}, {}};
+  SvgAxes angle{frequency, "drive [deg]", true, false, {}, {}, {}, {}, {}};
   const auto addDrive = [&](const std::string& name, int colour, bool dashed, auto response) {
     gain.series.push_back(curve(name, colour, dashed, a, [=](const Sample& s) { return inDecibel(response(s)); }));
     angle.series.push_back(phase(name, colour, dashed, a, response));
@@ -53,13 +53,13 @@ std::string bodeFigure(const std::string& scenario_name, const LoopAnalysis& a) 
   addDrive("arm, output blocked", 2, true, [](const Sample& s) { return s.arm_blocked; });
 
   const auto shown = [](double g) { return g < kLowestGain ? std::nan("") : g; };
-  SvgAxes loop{frequency, "loop gain", true, true, {}, {}, {{"1", 1}}};
+  SvgAxes loop{frequency, "loop gain", true, true, {}, {}, {{"1", 1}}, {}, {}};
   loop.series = {curve("ideal drives", 0, true, a, [=](const Sample& s) { return shown(s.loop_gain_ideal); }),
                  curve("series elastic drives", 1, false, a, [=](const Sample& s) { return shown(s.loop_gain); })};
   loop.at_x = {{fmt::format("crossover {:.2f} Hz", inHertz(a.with_drives.crossover)), inHertz(a.with_drives.crossover)}};
 
   const auto near = [](double d) { return d > kFar ? std::nan("") : d; };
-  SvgAxes distance{frequency, "smallest |1 + L|", true, false, {}, {}, {}};
+  SvgAxes distance{frequency, "smallest |1 + L|", true, false, {}, {}, {}, {}, {}};
   distance.series = {curve("ideal drives", 0, true, a, [=](const Sample& s) { return near(s.distance_ideal); }),
                      curve("series elastic drives", 1, false, a, [=](const Sample& s) { return near(s.distance); })};
   distance.at_y = {{fmt::format("smallest {:.2f}{}", a.with_drives.distance, a.with_drives.stable ? "" : ", UNSTABLE"),

@@ -23,6 +23,7 @@ void addDrivesCommand(CLI::App& program, ExitCode& result);
 void addHilCommand(CLI::App& program, ExitCode& result);
 void addIdentifyCommand(CLI::App& program, ExitCode& result);
 void addFmuCommand(CLI::App& program, ExitCode& result);
+void addStudyCommand(CLI::App& program, ExitCode& result);
 void addDoctorCommand(CLI::App& program, ExitCode& result);
 
 }  // namespace ballbot

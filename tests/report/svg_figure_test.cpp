@@ -14,7 +14,9 @@ using ::testing::Not;
 using ::testing::Pointwise;
 
 SvgAxes line(std::vector<double> x, std::vector<double> y) {
-  SvgAxes axes{"frequency [Hz]", "gain", false, false, {}, {}, {}};
+  SvgAxes axes;
+  axes.x_label = "frequency [Hz]";
+  axes.y_label = "gain";
   axes.series.push_back({"curve", 0, false, std::move(x), std::move(y)});
   return axes;
 }
@@ -37,6 +39,16 @@ TEST(SvgFigure, PutsTheEndsOfALineIntoTheCornersOfItsAxes) {
   axes.log_x = axes.log_y = true;
   // Plot area: x from 84 to 704, y from 12 to 202.
   EXPECT_THAT(svgFigure("", {axes}), HasSubstr("M84.00 202.00L704.00 12.00"));
+}
+
+TEST(SvgFigure, ABandRunsForthAboveAndBackBelow) {
+  SvgAxes axes = line({1, 1000}, {10, 10});
+  axes.log_x = axes.log_y = true;
+  axes.bands.push_back({2, {1, 1000}, {1, 1}, {100, 100}});
+  // The band spans the whole plot area; the line lies in its middle.
+  const std::string svg = svgFigure("", {axes});
+  EXPECT_THAT(svg, HasSubstr("M84.00 12.00L704.00 12.00L704.00 202.00L84.00 202.00Z"));
+  EXPECT_THAT(svg, HasSubstr("M84.00 107.00L704.00 107.00"));
 }
 
 TEST(SvgFigure, BreaksALineAtValuesThatCannotBeDrawn) {

@@ -39,10 +39,8 @@ class JointRig final : public OdeSystem {
   void tick(double wanted_torque) {
     encoders_.tick(motion());
     const JointReadings& r = encoders_.readings();
-    DriveCommand command;
-    command.torque = wanted_torque;
-    actuator_.demand(drive_.tick(command, {r.motor_angle[0], r.motor_velocity[0], r.joint_angle[0],
-                                           r.joint_velocity[0]}),
+    actuator_.demand(drive_.tick(wanted_torque, {r.motor_angle[0], r.motor_velocity[0],
+                                                 r.joint_angle[0], r.joint_velocity[0]}),
                      started_ ? tick_s_ : 0);
     started_ = true;
     rk4_.step(*this, 0, tick_s_, y_);

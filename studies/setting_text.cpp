@@ -1,0 +1,73 @@
+#include "studies/setting_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+namespace ballbot {
+namespace {
+
+bool isPlain(const std::string& text) {
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '+' ||
+           c == '/' || c == '-';
+  };
+  return !text.empty() && text != "null" && std::all_of(text.begin(), text.end(), plain) &&
+         (text[0] != '-' ||
+          (text.size() > 1 &&
+           (std::isdigit(static_cast<unsigned char>(text[1])) || text[1] == '.')));
+}
+
+std::string scalarText(const ConfigNode& node) {
+  if (!node.quoted() && isPlain(node.text())) return node.text();
+  std::string out = "\"";
+  for (const char c : node.text()) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+}  // namespace
+
+std::string toFlowYaml(const ConfigNode& value) {
+  std::string out;
+  switch (value.kind()) {
+    case ConfigNode::Kind::kNull:
+      return "null";
+    case ConfigNode::Kind::kScalar:
+      return scalarText(value);
+    case ConfigNode::Kind::kMap:
+      for (const auto& [key, child] : value.entries()) {
+        out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", key, toFlowYaml(child));
+      }
+      return "{" + out + "}";
+    case ConfigNode::Kind::kList:
+      for (const ConfigNode& item : value.items())
+        out += (out.empty() ? "" : ", ") + toFlowYaml(item);
+      return "[" + out + "]";
+  }
+  return out;
+}
+
+std::string numberText(double value) { return fmt::format("{}", value); }
+
+std::string shellQuoted(const std::string& word) {
+  const bool safe = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) ||
+           std::string("_-./=+:,@").find(c) != std::string::npos;
+  });
+  if (safe) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string commandLine(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : " ") + shellQuoted(word);
+  return out;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,106 @@
+#include "studies/study_figures.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "experiment/verdict.hpp"
+#include "report/svg_figure.hpp"
+
+namespace ballbot {
+namespace {
+
+bool logarithmic(const StudyView& view) {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  for (const StudyPanel& panel : view.panels) {
+    for (const StudyCurve& curve : panel.curves) {
+      for (const auto& point : curve.points) {
+        low = std::min(low, point.value);
+        high = std::max(high, point.value);
+      }
+    }
+  }
+  return low > 0 && high > 5 * low;
+}
+
+/// A line through the middle of a band.
+void addBand(SvgAxes& axes, const std::string& name, int colour, const std::vector<double>& x,
+             const std::vector<double>& middle, const std::vector<double>& low,
+             const std::vector<double>& high) {
+  axes.series.push_back({name, colour, false, x, middle});
+  axes.bands.push_back({colour, x, low, high});
+}
+
+SvgAxes successAxes(const Study& study, const StudyView& view, const StudyPanel& panel) {
+  SvgAxes axes;
+  axes.x_label = withUnit(view.along->name, view.along->unit);
+  axes.y_label = "share that passes";
+  axes.log_x = logarithmic(view);
+  int colour = 0;
+  for (const StudyCurve& curve : panel.curves) {
+    std::vector<double> x, middle, low, high;
+    for (const auto& point : curve.points) {
+      x.push_back(point.value);
+      middle.push_back(point.rate.rate());
+      low.push_back(point.rate.low);
+      high.push_back(point.rate.high);
+    }
+    addBand(axes, curve.name.empty() ? "all" : curve.name, colour++ % 6, x, middle, low, high);
+  }
+  axes.at_y.push_back({fmt::format("{:g} %", 100 * study.report.rate), study.report.rate});
+  return axes;
+}
+
+SvgAxes metricAxes(const StudyView& view, const StudyPanel& panel, const std::string& metric) {
+  SvgAxes axes;
+  axes.x_label = withUnit(view.along->name, view.along->unit);
+  axes.y_label = withUnit(metric, unitOfMetric(metric));
+  axes.log_x = logarithmic(view);
+  int colour = 0;
+  for (const StudyCurve& curve : panel.curves) {
+    std::vector<double> x, middle, low, high;
+    for (const auto& point : curve.points) {
+      std::vector<double> values;  // of runs that did not fall: others end early
+      for (const CaseResult* r : point.results) {
+        const auto it = r->metrics.find(metric);
+        if (it != r->metrics.end() && r->outcome <= CaseOutcome::kMissed)
+          values.push_back(it->second);
+      }
+      if (values.empty()) continue;
+      std::sort(values.begin(), values.end());
+      x.push_back(point.value);
+      middle.push_back(0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]));
+      low.push_back(values.front());
+      high.push_back(values.back());
+    }
+    if (!x.empty())
+      addBand(axes, curve.name.empty() ? "all" : curve.name, colour % 6, x, middle, low, high);
+    ++colour;
+  }
+  return axes;
+}
+
+}  // namespace
+
+std::string withUnit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+}
+
+std::vector<StudyFigure> studyFigures(const Study& study, const StudyView& view) {
+  std::vector<StudyFigure> out;
+  int number = 0;
+  for (const StudyPanel& panel : view.panels) {
+    ++number;
+    const std::string title = panel.name.empty() ? study.name : panel.name;
+    std::vector<SvgAxes> axes = {successAxes(study, view, panel)};
+    for (const std::string& metric : study.report.metrics) {
+      SvgAxes more = metricAxes(view, panel, metric);
+      if (!more.series.empty()) axes.push_back(std::move(more));
+    }
+    out.push_back({fmt::format("{}-{}", study.name, number), title, svgFigure(title, axes)});
+  }
+  return out;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "studies/boundary_search.hpp"
+#include "studies/case_result.hpp"
+#include "studies/study_cases.hpp"
+
+namespace ballbot {
+
+/// The cases of one option of the curve axis, in order of the axis drawn from left to right.
+struct StudyCurve {
+  std::string name;
+  struct Point {
+    std::string label;
+    double value = 0;  ///< along the axis; its position in the list where the axis has no numbers
+    RateEstimate rate;
+    std::vector<const CaseResult*> results;
+  };
+  std::vector<Point> points;
+
+  /// Where the rate of passing crosses `rate` along the curve. Needs two points.
+  Boundary boundary(double rate) const;
+};
+
+/// What is drawn together: all axes but two stand still.
+struct StudyPanel {
+  std::string name;  ///< "torque_weight 2, delay 5 ms"; empty if there are no other axes
+  std::vector<StudyCurve> curves;
+};
+
+/// A study's results arranged for a reader.
+struct StudyView {
+  const StudyAxis* along = nullptr;   ///< null: a study without axes
+  const StudyAxis* curves = nullptr;  ///< null: one curve
+  bool numeric = false;               ///< `along` has numbers, not words
+  std::vector<StudyPanel> panels;
+};
+
+/// By study.report; where it leaves things open, the numeric axis with the most options is drawn
+/// along, and the axis with the fewest of the others makes the curves.
+StudyView arrange(const Study& study, const std::vector<StudyCase>& cases,
+                  const std::map<std::string, CaseResult>& results);
+
+}  // namespace ballbot
