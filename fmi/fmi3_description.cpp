@@ -2,6 +2,8 @@
 
 #include "fmi/model_xml.hpp"
 
+#include "core/number_text.hpp"
+
 namespace ballbot {
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/number_text.hpp"
 #include "fmi/fmu_instance.hpp"
 #include "fmi/units.hpp"
 
@@ -11,8 +12,6 @@ namespace ballbot {
 
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
-
-std::string numberText(double value) { return fmt::format("{}", value); }
 
 std::string enumerationName(const FmuVariable& variable) {
   return "ballbot_" + variable.name.substr(variable.name.rfind('.') + 1);

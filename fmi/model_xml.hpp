@@ -10,8 +10,6 @@ namespace ballbot {
 
 // What the model descriptions of both versions have in common.
 
-/// A number that reads back to the same bits, in no locale.
-std::string numberText(double value);
 /// "ballbot_contact", from the parameter's path.
 std::string enumerationName(const FmuVariable& variable);
 const char* causalityName(VariableRole role);

@@ -51,8 +51,6 @@ std::string toFlowYaml(const ConfigNode& value) {
   return out;
 }
 
-std::string numberText(double value) { return fmt::format("{}", value); }
-
 std::string shellQuoted(const std::string& word) {
   const bool safe = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) ||

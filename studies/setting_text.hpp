@@ -10,9 +10,6 @@ namespace ballbot {
 /// A value on one line, as YAML that reads back to the same tree: "[1, 2]", "{enabled: false}".
 std::string toFlowYaml(const ConfigNode& value);
 
-/// The shortest decimal text that reads back to the same number.
-std::string numberText(double value);
-
 /// `word` as one word of a POSIX shell.
 std::string shellQuoted(const std::string& word);
 /// Words joined to a command line.

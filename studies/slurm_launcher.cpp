@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "experiment/scenario_variants.hpp"
 #include "experiment/text_file.hpp"
 #include "studies/result_log.hpp"

@@ -12,6 +12,7 @@
 #include "core/config_reader.hpp"
 #include "core/digest.hpp"
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "core/random.hpp"
 #include "studies/setting_text.hpp"
 

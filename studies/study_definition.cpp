@@ -9,6 +9,7 @@
 
 #include "core/config_reader.hpp"
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "core/yaml_file.hpp"
 #include "studies/setting_text.hpp"
 

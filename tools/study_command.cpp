@@ -10,6 +10,7 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include "core/number_text.hpp"
 #include "core/yaml_file.hpp"
 #include "experiment/scenario_variants.hpp"
 #include "studies/case_check.hpp"
