@@ -120,17 +120,18 @@ std::optional<TruthFrame> CoupledPlant::truth() const {
 
 StateBlob CoupledPlant::saveState() const {
   BlobWriter out;
-  out.put(toNs(now_));
   putRows(out, outputs_);
   putRows(out, before_);
+  out.put(toNs(now_));
   for (const auto& model : models_) out.putBlob(model->save());
   return out.seal(kBlobKind, kBlobVersion);
 }
 
 void CoupledPlant::restoreState(const StateBlob& blob) {
   BlobReader in(blob, kBlobKind, kBlobVersion);
+  Rows outputs = getRows(in, outputs_);
+  Rows before = getRows(in, before_);
   const SimTime now = simTimeFromNs(in.get<std::int64_t>());
-  Rows outputs = getRows(in, outputs_), before = getRows(in, before_);
   std::vector<StateBlob> states;
   for (std::size_t i = 0; i < models_.size(); ++i) states.push_back(in.getBlob());
   in.finish();

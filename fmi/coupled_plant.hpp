@@ -30,6 +30,7 @@ class CoupledPlant final : public Participant {
   const SensorFrame& sensors() const override { return sensors_; }
   std::optional<TruthFrame> truth() const override;
   StateBlob saveState() const override;
+  /// If one of the FMUs refuses its part, those before it have changed: reset or restore again.
   void restoreState(const StateBlob& blob) override;
   std::uint64_t stateDigest() const override;
 

@@ -42,6 +42,11 @@ ConfigNode plantScenario(const ConfigNode& scenario) {
        {"name", "summary", "duration_s", "seed", "robot", "plant", "initial", "environment"}) {
     if (const ConfigNode* node = scenario.find(key)) out.set(key, *node);
   }
+  if (scenario.find("fmus")) {
+    throw InputError(
+        "the scenario has FMUs of its own (section 'fmus'), which an export cannot "
+        "hold; take them out, and couple them where the export is imported");
+  }
   ConfigNode* robot = out.find("robot");
   if (!robot) throw InputError("the scenario has no section 'robot'");
   robot->set("urdf", ConfigNode::scalar("robot.urdf", false, {}));

@@ -124,7 +124,10 @@ void FmuProcess::step(SimTime now, SimDuration step, const std::vector<double>& 
 }
 
 void FmuProcess::terminate() { ask(request(FmuRequest::kTerminate), "terminate"); }
-void FmuProcess::reset() { ask(request(FmuRequest::kReset), "reset"); }
+void FmuProcess::reset() {
+  only_step_ = SimDuration::zero();
+  ask(request(FmuRequest::kReset), "reset");
+}
 
 StateBlob FmuProcess::save() {
   if (!use_.saves_state) {

@@ -25,9 +25,10 @@ ConfigNode scenarioWith(const std::string& fmus) {
   applyOverride(scenario, "fmus=[" + fmus + "]");
   return scenario;
 }
-std::string spring(const std::string& parameters, const std::string& connections) {
-  return "{name: spring, file: '" + springFmu() + "', patience_s: 0.5, parameters: {" + parameters +
-         "}, connections: [" + connections + "]}";
+std::string spring(const std::string& parameters, const std::string& connections,
+                   const char* patience_s = "60") {
+  return "{name: spring, file: '" + springFmu() + "', patience_s: " + patience_s +
+         ", parameters: {" + parameters + "}, connections: [" + connections + "]}";
 }
 const char* const kHandToSpring = "{from: plant.truth.p_WE, to: spring.hand}";
 const char* const kSpringToHand = "{from: spring.force, to: plant.force.end_effector_W}";
@@ -160,19 +161,19 @@ TEST(CoupledPlant, AForeignStateIsRefused) {
 
 // Whatever an FMU does to its process is an error in words here.
 TEST(CoupledPlant, TroubleInAnFmuIsAnErrorInWords) {
-  const auto words = [](int trouble) {
-    CoupledPlant plant(
-        scenarioWith(
-            spring("trouble: " + std::to_string(trouble) + ", trouble_time: 0.01", bothWays())),
-        kProgram);
+  const auto words = [](int trouble, const char* patience_s) {
+    const std::string parameters = "trouble: " + std::to_string(trouble) + ", trouble_time: 0.01";
+    CoupledPlant plant(scenarioWith(spring(parameters, bothWays(), patience_s)), kProgram);
     plant.enterInitializationMode(kSimStart);
     return messageOf([&] { steps(plant, 1, 100); });
   };
-  EXPECT_THAT(words(1), HasSubstr("its process ended when asked to step (signal 6, Aborted)"));
-  EXPECT_THAT(words(2), HasSubstr("no answer to 'step' within 500 ms; its process was ended"));
-  EXPECT_THAT(words(3), HasSubstr("its process ended when asked to step (exit code 0)"));
-  EXPECT_THAT(words(4), HasSubstr("FMU 'spring': "));
-  EXPECT_THAT(words(4), HasSubstr("fmi2DoStep returned an error"));
+  EXPECT_THAT(words(1, "60"),
+              HasSubstr("its process ended when asked to step (signal 6, Aborted)"));
+  EXPECT_THAT(words(2, "4"),
+              HasSubstr("no answer to 'step' within 4000 ms; its process was ended"));
+  EXPECT_THAT(words(3, "60"), HasSubstr("its process ended when asked to step (exit code 0)"));
+  EXPECT_THAT(words(4, "60"), HasSubstr("FMU 'spring': "));
+  EXPECT_THAT(words(4, "60"), HasSubstr("fmi2DoStep returned an error"));
 }
 
 TEST(CoupledPlant, SaysWhatIsWrongWithTheConnections) {

@@ -190,6 +190,10 @@ TEST(Export, SaysWhatIsWrong) {
   how.libraries_folder = BALLBOT_BIN_DIR "/../lib/ballbot/fmu";
   EXPECT_THAT(messageOf([&] { exportFmu(testScenario(), testUrdf(), how, "/nowhere/x.fmu"); }),
               HasSubstr("/nowhere/x.fmu: cannot be written"));
+  ConfigNode coupled = testScenario();
+  coupled.set("fmus", ConfigNode::list({}));
+  EXPECT_THAT(messageOf([&] { exportFmu(coupled, testUrdf(), how, "/tmp/x.fmu"); }),
+              HasSubstr("the scenario has FMUs of its own"));
   ConfigNode scenario = testScenario();
   scenario.set("seed", ConfigNode::scalar("5000000000", false, {}));
   EXPECT_THAT(messageOf([&] { exportFmu(scenario, testUrdf(), how, "/tmp/x.fmu"); }),

@@ -272,7 +272,15 @@ TEST_F(Fmi2Test, WhatItDoesNotOfferItSays) {
               HasSubstr("maxOutputDerivativeOrder=0"));
 }
 
-TEST_F(Fmi2Test, LeavesFloatingPointModeOutputAndFolderAlone) {
+/// The process's environment variables, as they are now.
+std::vector<std::string> environmentNow() {
+  std::vector<std::string> out;
+  for (char** v = ::environ; *v; ++v) out.push_back(*v);
+  return out;
+}
+
+TEST_F(Fmi2Test, LeavesEnvironmentFloatingPointModeOutputAndFolderAlone) {
+  const std::vector<std::string> environment = environmentNow();
   char before[4096], after[4096];
   ASSERT_NE(::getcwd(before, sizeof before), nullptr);
   std::fesetround(FE_UPWARD);  // somebody's odd wish
@@ -286,6 +294,27 @@ TEST_F(Fmi2Test, LeavesFloatingPointModeOutputAndFolderAlone) {
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
   ASSERT_NE(::getcwd(after, sizeof after), nullptr);
   EXPECT_STREQ(before, after);
+  EXPECT_EQ(environmentNow(), environment);
+}
+
+TEST_F(Fmi2Test, LoggingChangesNoBit) {
+  std::vector<std::string> states;
+  for (const bool logging : {false, true}) {
+    create("one", logging);
+    ASSERT_EQ(fmu.fmi2EnterInitializationMode(c), fmi2OK);
+    ASSERT_EQ(fmu.fmi2ExitInitializationMode(c), fmi2OK);
+    for (int k = 0; k < 10; ++k) ASSERT_EQ(fmu.fmi2DoStep(c, 0.01 * k, 0.01, fmi2True), fmi2OK);
+    fmi2FMUstate state = nullptr;
+    std::size_t size = 0;
+    ASSERT_EQ(fmu.fmi2GetFMUstate(c, &state), fmi2OK);
+    ASSERT_EQ(fmu.fmi2SerializedFMUstateSize(c, state, &size), fmi2OK);
+    states.emplace_back(size, '\0');
+    ASSERT_EQ(fmu.fmi2SerializeFMUstate(c, state, states.back().data(), size), fmi2OK);
+    fmu.fmi2FreeInstance(c);
+    c = nullptr;
+  }
+  EXPECT_FALSE(told.events.empty());
+  EXPECT_TRUE(states[0] == states[1]);
 }
 
 }  // namespace
