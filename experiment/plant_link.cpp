@@ -46,7 +46,7 @@ void PlantLink::start() {
     child_ = std::make_unique<ChildProcess>(
         "plant",
         std::vector<std::string>{"plant", folder_.scenarioFile(), "--lcm-url", address.url, "--channel",
-                                 address.channel},
+                                 address.channel, "--quiet"},
         stderr_path_, options_.core);
   }
   transport_ = std::make_unique<LcmTransport>(address, LinkEnd::kMaster);
