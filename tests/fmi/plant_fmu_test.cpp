@@ -210,6 +210,19 @@ TEST_P(PlantFmuTest, LivesAThousandTimes) {
   }
 }
 
+// The plant's own reader names all choices when it refuses one: they are those of the parameter.
+TEST(PlantParameters, ChoicesAreThoseOfThePlant) {
+  for (const PlantParameter& p : plantParameters()) {
+    if (p.type != VariableType::kEnumeration) continue;
+    std::string choices;
+    for (const std::string& c : p.choices) choices += (choices.empty() ? "" : ", ") + c;
+    ConfigNode scenario = testScenario();
+    applyOverride(scenario, p.path + "=nonsense");
+    const std::string words = messageOf([&] { readPlantConfig(scenario); });
+    EXPECT_THAT(words, ::testing::EndsWith("must be one of: " + choices)) << p.path;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Fmi, PlantFmuTest, ::testing::Values(2, 3),
                          [](const auto& version) { return std::to_string(version.param); });
 
