@@ -152,6 +152,28 @@ void readSafety(ConfigReader in, SafetyConfig& s, const BenchConfig& c) {
   in.finish();
 }
 
+void readBuses(ConfigReader& in, BenchConfig& c) {
+  for (ConfigReader& b : in.list("buses")) {
+    BusConfig bus;
+    bus.address = b.text("address");
+    bus.bitrate_kbps = b.integerOr("bitrate_kbps", bus.bitrate_kbps, {10, 1000});
+    b.finish();
+    c.buses.push_back(bus);
+  }
+  if (c.buses.empty() || c.buses.size() > 2)
+    throw InputError(in.at("buses") + "must be one or two");
+}
+
+void readRealtime(ConfigReader in, BenchConfig& c) {
+  c.realtime.priority = in.integerOr("priority", c.realtime.priority, {1, 98});
+  c.realtime.collect = in.durationOr("collect_us", c.realtime.collect, {10, 1e5});
+  c.realtime.act = in.durationOr("act_us", c.realtime.act, {10, 1e5});
+  if (!(c.realtime.collect < c.realtime.act && c.realtime.act < c.cycle)) {
+    throw InputError(in.at("act_us") + "must lie between collect_us and the cycle");
+  }
+  in.finish();
+}
+
 }  // namespace
 
 int BenchConfig::cyclesOf(int ms) const {
@@ -180,15 +202,7 @@ BenchConfig readBenchConfig(const ConfigNode& tree) {
   if (c.master_timeout_ms < 2 * c.master_heartbeat_ms) {
     throw InputError(in.at("master_timeout_ms") + "must be at least twice master_heartbeat_ms");
   }
-  for (ConfigReader& b : in.list("buses")) {
-    BusConfig bus;
-    bus.address = b.text("address");
-    bus.bitrate_kbps = b.integerOr("bitrate_kbps", bus.bitrate_kbps, {10, 1000});
-    b.finish();
-    c.buses.push_back(bus);
-  }
-  if (c.buses.empty() || c.buses.size() > 2)
-    throw InputError(in.at("buses") + "must be one or two");
+  readBuses(in, c);
   if (in.has("imu")) {
     ConfigReader imu = in.child("imu");
     c.imu.bus = imu.integerOr("bus", 0, {0, static_cast<double>(c.buses.size()) - 1});
@@ -209,16 +223,7 @@ BenchConfig readBenchConfig(const ConfigNode& tree) {
       readMappings(in, "tpdo", {{"60410010", "60770010", "60640020"}, {"606C0020", "60E40120"}});
   requireMapped(c, tree.where().source + ": ");
   if (in.has("safety")) readSafety(in.child("safety"), c.safety, c);
-  if (in.has("realtime")) {
-    ConfigReader r = in.child("realtime");
-    c.realtime.priority = r.integerOr("priority", c.realtime.priority, {1, 98});
-    c.realtime.collect = r.durationOr("collect_us", c.realtime.collect, {10, 1e5});
-    c.realtime.act = r.durationOr("act_us", c.realtime.act, {10, 1e5});
-    if (!(c.realtime.collect < c.realtime.act && c.realtime.act < c.cycle)) {
-      throw InputError(r.at("act_us") + "must lie between collect_us and the cycle");
-    }
-    r.finish();
-  }
+  if (in.has("realtime")) readRealtime(in.child("realtime"), c);
   in.finish();
   return c;
 }

@@ -1,5 +1,6 @@
 #include "hil/bench_io.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -38,7 +39,7 @@ bool BenchIo::collect(std::chrono::steady_clock::time_point until) noexcept {
     send();
     if (!master_.isAwaited()) return true;
     const auto left = until - std::chrono::steady_clock::now();
-    if (left <= std::chrono::nanoseconds::zero() || !wait(left)) return false;
+    if (left <= std::chrono::nanoseconds::zero() || !anyUp() || !wait(left)) return false;
   }
 }
 
@@ -47,12 +48,18 @@ bool BenchIo::wait(std::chrono::nanoseconds timeout) noexcept {
   // Frames a bus has buffered already count too.
   std::array<pollfd, 2> entries{};
   for (std::size_t i = 0; i < buses_.size(); ++i) {
+    entries[i].fd = -1;
+    if (!buses_[i]->isUp()) continue;  // would be readable for ever
     if (buses_[i]->waitReadable(std::chrono::nanoseconds::zero())) return true;
     if (buses_[i]->descriptor() < 0) return false;
     entries[i] = {buses_[i]->descriptor(), POLLIN, 0};
   }
   const timespec time{timeout.count() / 1'000'000'000, timeout.count() % 1'000'000'000};
   return ::ppoll(entries.data(), static_cast<nfds_t>(buses_.size()), &time, nullptr) > 0;
+}
+
+bool BenchIo::anyUp() const noexcept {
+  return std::any_of(buses_.begin(), buses_.end(), [](const CanBus* bus) { return bus->isUp(); });
 }
 
 bool BenchIo::allUp() const noexcept {

@@ -27,6 +27,7 @@ class BenchIo {
   const Load& load(int bus) const noexcept { return load_[static_cast<std::size_t>(bus)]; }
 
  private:
+  bool anyUp() const noexcept;
   bool wait(std::chrono::nanoseconds timeout) noexcept;
   void count(std::size_t bus, const CanFrame& frame) noexcept;
 

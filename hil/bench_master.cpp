@@ -69,6 +69,7 @@ void BenchMaster::start() noexcept {
 
 void BenchMaster::beginCycle() noexcept {
   ++cycle_;
+  collecting_ = true;
   pdos_seen_ = {};
   imu_seen_ = 0;
   if (!running_) return;
@@ -95,6 +96,10 @@ void BenchMaster::onFrame(int bus, const CanFrame& frame) noexcept {
 void BenchMaster::readPdo(int i, int pdo, const CanFrame& frame) noexcept {
   const auto n = static_cast<std::size_t>(i);
   if (!running_) return;
+  if (!collecting_) {
+    ++late_pdos_;
+    return;
+  }
   if (static_cast<std::size_t>(pdo) >= config_.inputs.size() ||
       frame.size != config_.inputs[static_cast<std::size_t>(pdo)].bytes()) {
     ++bad_pdos_;  // counts as missing
@@ -115,6 +120,10 @@ void BenchMaster::readPdo(int i, int pdo, const CanFrame& frame) noexcept {
 
 void BenchMaster::readImu(int pdo, const CanFrame& frame) noexcept {
   if (!running_ || pdo >= kImuPdos) return;
+  if (!collecting_) {
+    ++late_pdos_;
+    return;
+  }
   if (frame.size != (pdo == 0 ? kAccelBytes : kGyroBytes)) {
     ++bad_pdos_;
     return;
@@ -143,6 +152,7 @@ bool BenchMaster::isAwaited() const noexcept {
 }
 
 void BenchMaster::endCycle() noexcept {
+  collecting_ = false;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const int bus = i < kDriveCount ? config_.drives[i].bus : config_.imu.bus;
     links_[i].onCycle(outbox(bus));

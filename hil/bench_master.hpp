@@ -65,6 +65,8 @@ class BenchMaster {
   bool allDrives(DriveState state) const noexcept;
   /// PDOs whose length is not that of their mapping.
   std::int64_t badPdos() const noexcept { return bad_pdos_; }
+  /// PDOs that came after their cycle had ended; they count as missing there and for nothing later.
+  std::int64_t latePdos() const noexcept { return late_pdos_; }
 
  private:
   struct Input {
@@ -89,7 +91,8 @@ class BenchMaster {
   std::int64_t cycle_ = 0;
   bool running_ = false;
   int heartbeat_period_ = 1;
-  std::int64_t bad_pdos_ = 0;
+  bool collecting_ = false;  ///< between beginCycle() and endCycle()
+  std::int64_t bad_pdos_ = 0, late_pdos_ = 0;
   Input status_, torque_, position_, velocity_, motor_position_;
 };
 

@@ -136,7 +136,8 @@ void CanopenNode::onNmt(std::uint8_t command) {
 }
 
 void CanopenNode::onFrame(const CanFrame& f) {
-  if (state_ == State::kOff || f.extended || f.remote) return;
+  if (state_ == State::kOff || f.extended) return;
+  if (f.remote) return onRemoteRequest(f.id);
   const auto id = static_cast<unsigned>(id_);
   if (f.id == 0x000) {
     if (f.size == 2 && (f.data[1] == 0 || f.data[1] == id)) onNmt(f.data[0]);
@@ -164,6 +165,15 @@ void CanopenNode::onFrame(const CanFrame& f) {
   if (state_ != State::kOperational) return;
   for (int i = 0; i < PdoRules::kPdoCount; ++i) {
     if (pdos_.valid(false, i) && pdos_.identifier(false, i) == f.id) return onReceivePdo(i, f);
+  }
+}
+
+void CanopenNode::onRemoteRequest(std::uint32_t id) {
+  if (state_ != State::kOperational) return;
+  for (int i = 0; i < PdoRules::kPdoCount; ++i) {
+    if (!pdos_.valid(true, i) || !pdos_.onRequest(i) || pdos_.identifier(true, i) != id) continue;
+    refresh();
+    sendPdo(i);
   }
 }
 

@@ -83,6 +83,7 @@ class CanopenNode {
   void onNmt(std::uint8_t command);
   void enter(State state);
   void bootUp(bool application_too);
+  void onRemoteRequest(std::uint32_t id);
   void onReceivePdo(int number, const CanFrame& frame);
   void onHeartbeat(int producer, std::uint8_t state);
   void checkConsumers();

@@ -19,6 +19,8 @@ constexpr std::int64_t kSupportedModes = 1 << 7 | 1 << 9;
 constexpr std::uint8_t kDeviceError = 0x80;
 constexpr std::uint16_t kConnectionFault = 0x8130;
 
+bool isSupported(std::int64_t mode) { return mode == 0 || mode == kModeCsp || mode == kModeCst; }
+
 std::int64_t rounded(double value, double low, double high) {
   return std::llround(std::clamp(value, low, high));
 }
@@ -30,16 +32,10 @@ DriveNode::DriveNode(const EmulatedDriveParameters& p)
   addObjects(p);
 }
 
-void DriveNode::addObjects(const EmulatedDriveParameters& p) {
+void DriveNode::addOptions() {
   ObjectDictionary& d = dictionary();
   using A = OdAccess;
   using T = OdType;
-  const auto input = [&](std::uint16_t index, const char* name, T type) {
-    d.variable(index, name, type, A::kReadOnly, 0).mappable = true;
-  };
-  const auto output = [&](std::uint16_t index, const char* name, T type, std::int64_t value) {
-    d.variable(index, name, type, A::kReadWrite, value).mappable = true;
-  };
   const auto option = [&](std::uint16_t index, const char* name, int low, int high, int value) {
     OdEntry& e = d.variable(index, name, T::kI16, A::kReadWrite, value);
     e.low = low;
@@ -50,11 +46,30 @@ void DriveNode::addObjects(const EmulatedDriveParameters& p) {
   d.sub(0x2010, 1, "Stiffness in mNm per rad", T::kU32, A::kReadWrite, 0);
   d.sub(0x2010, 2, "Damping in mNm s per rad", T::kU32, A::kReadWrite, 0);
   option(0x6007, "Abort connection option code", 0, 3, 1);
+  option(0x605A, "Quick stop option code", 0, 6, 2);
+  option(0x605E, "Fault reaction option code", 0, 2, 2);
+  d.structure(0x60C2, "Interpolation time period", OdShape::kRecord);
+  OdEntry& period = d.sub(0x60C2, 1, "Interpolation time period value", T::kU8, A::kReadWrite, 25);
+  period.low = 1;
+  OdEntry& exponent = d.sub(0x60C2, 2, "Interpolation time index", T::kI8, A::kReadWrite, -4);
+  exponent.low = -6;
+  exponent.high = 0;
+  d.variable(0x6502, "Supported drive modes", T::kU32, A::kReadOnly, kSupportedModes);
+}
+
+void DriveNode::addControl(const EmulatedDriveParameters& p) {
+  ObjectDictionary& d = dictionary();
+  using A = OdAccess;
+  using T = OdType;
+  const auto input = [&](std::uint16_t index, const char* name, T type) {
+    d.variable(index, name, type, A::kReadOnly, 0).mappable = true;
+  };
+  const auto output = [&](std::uint16_t index, const char* name, T type, std::int64_t value) {
+    d.variable(index, name, type, A::kReadWrite, value).mappable = true;
+  };
   input(0x603F, "Error code", T::kU16);
   output(0x6040, "Controlword", T::kU16, 0);
   input(0x6041, "Statusword", T::kU16);
-  option(0x605A, "Quick stop option code", 0, 6, 2);
-  option(0x605E, "Fault reaction option code", 0, 2, 2);
   output(0x6060, "Modes of operation", T::kI8, 0);
   input(0x6061, "Modes of operation display", T::kI8);
   input(0x6064, "Position actual value", T::kI32);
@@ -67,17 +82,17 @@ void DriveNode::addObjects(const EmulatedDriveParameters& p) {
   d.variable(0x6079, "DC link circuit voltage", T::kU32, A::kReadOnly, 48'000).mappable = true;
   output(0x607A, "Target position", T::kI32, 0);
   d.variable(0x6087, "Torque slope", T::kU32, A::kReadWrite, 100'000).low = 1;
+  output(0x60B1, "Velocity offset", T::kI32, 0);
+  output(0x60B2, "Torque offset", T::kI16, 0);
+}
+
+void DriveNode::addEncoders(const EmulatedDriveParameters& p) {
+  ObjectDictionary& d = dictionary();
+  using A = OdAccess;
+  using T = OdType;
   d.structure(0x608F, "Position encoder resolution", OdShape::kArray);
   d.sub(0x608F, 1, "Encoder increments", T::kU32, A::kReadOnly, p.encoder_counts);
   d.sub(0x608F, 2, "Motor revolutions", T::kU32, A::kReadOnly, 1);
-  output(0x60B1, "Velocity offset", T::kI32, 0);
-  output(0x60B2, "Torque offset", T::kI16, 0);
-  d.structure(0x60C2, "Interpolation time period", OdShape::kRecord);
-  OdEntry& period = d.sub(0x60C2, 1, "Interpolation time period value", T::kU8, A::kReadWrite, 25);
-  period.low = 1;
-  OdEntry& exponent = d.sub(0x60C2, 2, "Interpolation time index", T::kI8, A::kReadWrite, -4);
-  exponent.low = -6;
-  exponent.high = 0;
   d.structure(0x60E4, "Additional position actual value", OdShape::kArray);
   d.sub(0x60E4, 1, "1st additional position actual value", T::kI32, A::kReadOnly, 0).mappable =
       true;
@@ -88,8 +103,12 @@ void DriveNode::addObjects(const EmulatedDriveParameters& p) {
   d.structure(0x60EB, "Additional position encoder resolution - motor revolutions",
               OdShape::kArray);
   d.sub(0x60EB, 1, "1st additional motor revolutions", T::kU32, A::kReadOnly, 1);
-  d.variable(0x6502, "Supported drive modes", T::kU32, A::kReadOnly, kSupportedModes);
+}
 
+void DriveNode::addObjects(const EmulatedDriveParameters& p) {
+  addOptions();
+  addControl(p);
+  addEncoders(p);
   pdos().addReceive(0, {0x60400010, 0x60710010}, 255);
   pdos().addReceive(1, {0x60400010, 0x60B20010, 0x607A0020}, 255);
   pdos().addReceive(2, {0x60B10020}, 255);
@@ -103,7 +122,7 @@ void DriveNode::addObjects(const EmulatedDriveParameters& p) {
 std::uint32_t DriveNode::judge(std::uint16_t index, std::uint8_t, std::int64_t value) {
   switch (index) {
     case 0x6060:
-      return value == 0 || value == kModeCsp || value == kModeCst ? kNone : kValue;
+      return isSupported(value) ? kNone : kValue;
     case 0x605A:  // ramps, with and without staying in quick stop
       return value == 3 || value == 4 ? kValue : kNone;
     case 0x60C2:  // not while it is interpolating
@@ -127,7 +146,7 @@ void DriveNode::onPowerOff() {
 
 void DriveNode::onWritten() {
   const std::int64_t mode = dictionary().value(0x6060);
-  if (dictionary().value(0x6061) != mode) {
+  if (dictionary().value(0x6061) != mode && isSupported(mode)) {  // a PDO is not judged
     // A change of mode starts from nothing: old targets mean something else.
     dictionary().set(0x6061, mode);
     dictionary().set(0x6071, 0);

@@ -70,6 +70,9 @@ class DriveNode final : public CanopenNode {
   };
 
   void addObjects(const EmulatedDriveParameters& p);
+  void addOptions();
+  void addControl(const EmulatedDriveParameters& p);
+  void addEncoders(const EmulatedDriveParameters& p);
   std::uint32_t judge(std::uint16_t index, std::uint8_t sub, std::int64_t value) override;
   void onWritten() override;
   void refresh() override;

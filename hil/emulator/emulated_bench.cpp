@@ -9,6 +9,8 @@ namespace ballbot {
 namespace {
 
 constexpr std::int64_t kRobotGrid = 100'000;  // the robot moves in steps of at least this [ns]
+// Of real time at once: a machine too slow for its robot still answers, and falls behind.
+constexpr std::int64_t kLongestStep = 10'000'000;
 constexpr double kGravity = 9.81;
 
 /// What an accelerometer in the base feels while it stands still: R_WB^T (0, 0, g).
@@ -110,18 +112,30 @@ void EmulatedBench::syncAll() {
 
 void EmulatedBench::advanceTo(std::int64_t now_ns) {
   const std::int64_t grid = now_ns / kRobotGrid * kRobotGrid;
-  if (grid <= now_ns_) return;
-  const std::int64_t step = grid - now_ns_;
-  now_ns_ = grid;
-  moveRobot(step);
-  tellTime();
+  if (grid > now_ns_) passTime(std::min(grid - now_ns_, kLongestStep));
 }
 
 void EmulatedBench::idle(std::int64_t elapsed_ns) {
   sync_is_clock_ = sync_is_clock_ && anyOperational();
   if (sync_is_clock_) return;
-  now_ns_ += elapsed_ns;
-  readOutputs();  // ramps of stops end, but the robot's time is that of SYNC alone
+  idle_ns_ = std::min(idle_ns_ + elapsed_ns, kLongestStep);
+  const std::int64_t step = idle_ns_ / kRobotGrid * kRobotGrid;
+  idle_ns_ -= step;
+  if (step > 0) passTime(step);
+}
+
+// Without SYNC. Where SYNC will be the clock, the robot stands still unless somebody drives it.
+void EmulatedBench::passTime(std::int64_t step_ns) {
+  now_ns_ += step_ns;
+  const bool driven = std::any_of(drives_.begin(), drives_.end(),
+                                  [](const auto& drive) { return drive->enabled(); });
+  robot_runs_ = robot_runs_ || driven;
+  if (driven || !config_.stepped) {
+    moveRobot(step_ns);
+    readRobot();
+  } else {
+    readOutputs();  // ramps of stops end
+  }
   tellTime();
 }
 
@@ -224,62 +238,17 @@ void EmulatedBench::collect() {
 }
 
 void EmulatedBench::inject(const FaultOrder& order) {
-  DriveNode& drive = *drives_[static_cast<std::size_t>(order.drive)];
-  const auto code = static_cast<std::uint16_t>(order.value);
+  const auto drive = static_cast<std::size_t>(order.drive);
+  const auto bus = static_cast<std::size_t>(config_.drive_bus[drive]);
   switch (order.kind) {
-    case EmulatedFault::kEmergency:
-      drive.raiseFault(code, code == 0x4310 ? 0x08 : code >> 12 == 3 ? 0x04 : 0x02);
-      break;
-    case EmulatedFault::kUnannouncedFault:
-      collect();
-      drive.raiseFault(code, 0);
-      drive.outbox().clear();
-      break;
-    case EmulatedFault::kHeartbeatLost:
-      drive.stopHeartbeat(true);
-      break;
-    case EmulatedFault::kPdosLost:
-      drive.dropPdos(true);
-      break;
-    case EmulatedFault::kPdosTruncated:
-      drive.truncatePdos(true);
-      break;
-    case EmulatedFault::kPowerLoss:
-      drive.powerOff();
-      break;
-    case EmulatedFault::kReboot:
-      drive.powerOff();
-      drive.powerOn();
-      break;
-    case EmulatedFault::kNmtStop:
-      drive.forceNmt(0x02);
-      break;
-    case EmulatedFault::kNmtPreOperational:
-      drive.forceNmt(0x80);
-      break;
-    case EmulatedFault::kLocalDisable:
-      drive.localDisable();
-      break;
-    case EmulatedFault::kStatusword:
-      drive.freezeStatusword(code);
-      break;
-    case EmulatedFault::kStuckEncoder:
-      drive.sticking(true);
-      break;
-    case EmulatedFault::kPositionJump:
-      drive.shiftPosition(order.value);
-      break;
     case EmulatedFault::kRunaway:
       runaway_[order.drive] = order.value;
       break;
     case EmulatedFault::kFrozenBus:
-      frozen_[static_cast<std::size_t>(config_.drive_bus[static_cast<std::size_t>(order.drive)])] =
-          true;
+      frozen_[bus] = true;
       break;
     case EmulatedFault::kSyncHeldBack:
-      syncs_held_back_[static_cast<std::size_t>(
-          config_.drive_bus[static_cast<std::size_t>(order.drive)])] =
-          static_cast<int>(order.value);
+      syncs_held_back_[bus] = static_cast<int>(order.value);
       break;
     case EmulatedFault::kImuLost:
       imu_->powerOff();
@@ -290,9 +259,47 @@ void EmulatedBench::inject(const FaultOrder& order) {
     case EmulatedFault::kTilt:
       lean_ = order.value;
       break;
+    default:
+      injectInto(*drives_[drive], order);
+  }
+}
+
+void EmulatedBench::injectInto(DriveNode& drive, const FaultOrder& order) {
+  const auto code = static_cast<std::uint16_t>(order.value);
+  switch (order.kind) {
+    case EmulatedFault::kEmergency:
+      return drive.raiseFault(code, code == 0x4310 ? 0x08 : code >> 12 == 3 ? 0x04 : 0x02);
+    case EmulatedFault::kUnannouncedFault:
+      collect();
+      drive.raiseFault(code, 0);
+      return drive.outbox().clear();
+    case EmulatedFault::kHeartbeatLost:
+      return drive.stopHeartbeat(true);
+    case EmulatedFault::kPdosLost:
+      return drive.dropPdos(true);
+    case EmulatedFault::kPdosTruncated:
+      return drive.truncatePdos(true);
+    case EmulatedFault::kPowerLoss:
+      return drive.powerOff();
+    case EmulatedFault::kReboot:
+      drive.powerOff();
+      return drive.powerOn();
+    case EmulatedFault::kNmtStop:
+      return drive.forceNmt(0x02);
+    case EmulatedFault::kNmtPreOperational:
+      return drive.forceNmt(0x80);
+    case EmulatedFault::kLocalDisable:
+      return drive.localDisable();
+    case EmulatedFault::kStatusword:
+      return drive.freezeStatusword(code);
+    case EmulatedFault::kStuckEncoder:
+      return drive.sticking(true);
+    case EmulatedFault::kPositionJump:
+      return drive.shiftPosition(order.value);
     case EmulatedFault::kWarning:
-      drive.setWarning(true);
-      break;
+      return drive.setWarning(true);
+    default:  // of the bus, the IMU or the robot
+      return;
   }
 }
 

@@ -25,7 +25,7 @@ struct ActuatorCommand;
 /// In real time the caller moves time, and a SYNC makes the nodes of its bus sample.
 ///
 /// The robot's own time begins one cycle after a drive has reported "operation enabled" for the
-/// first time: until then it stands where it stands, as in a stand.
+/// first time, or without SYNC when one is: until then it stands where it stands, as in a stand.
 class EmulatedBench {
  public:
   /// @param robot  starts at time zero; anything that takes an ActuatorCommand
@@ -57,6 +57,8 @@ class EmulatedBench {
  private:
   void syncAll();
   void sampleBus(int bus);
+  void injectInto(DriveNode& drive, const FaultOrder& order);
+  void passTime(std::int64_t step_ns);
   void startSyncClock();
   bool anyOperational() const;
   void tellTime();
@@ -76,7 +78,7 @@ class EmulatedBench {
   std::vector<bool> frozen_;
   std::vector<bool> heard_;           ///< a frame has come over this bus
   std::vector<int> syncs_held_back_;  ///< still to be kept from the nodes of a bus
-  std::int64_t syncs_ = 0, idle_syncs_ = 0, now_ns_ = 0, robot_ns_ = 0;
+  std::int64_t syncs_ = 0, idle_syncs_ = 0, now_ns_ = 0, idle_ns_ = 0, robot_ns_ = 0;
   bool robot_runs_ = false, sync_is_clock_ = false;
   double largest_torque_ = 0;
   double runaway_[6] = {};

@@ -73,6 +73,9 @@ std::uint32_t PdoRules::identifier(bool transmit, int number) const {
   return static_cast<std::uint32_t>(dictionary_.value(communicationIndex(transmit, number), 1) &
                                     0x7FF);
 }
+bool PdoRules::onRequest(int number) const {
+  return (dictionary_.value(communicationIndex(true, number), 1) & kNoRtrBit) == 0;
+}
 int PdoRules::transmission(bool transmit, int number) const {
   return static_cast<int>(dictionary_.value(communicationIndex(transmit, number), 2));
 }
@@ -106,8 +109,7 @@ std::uint32_t PdoRules::judgeCommunication(bool transmit, int number, std::uint8
                                            std::int64_t value) const {
   const bool in_use = valid(transmit, number);
   if (sub == 1) {
-    if ((value & kExtendedBit) != 0) return kValue;           // 11-bit identifiers only
-    if (transmit && (value & kNoRtrBit) == 0) return kValue;  // not sent on request
+    if ((value & kExtendedBit) != 0) return kValue;  // 11-bit identifiers only
     const std::int64_t id = value & 0x7FF;
     // Identifiers that CiA 301 keeps for other things (table of restricted COB-IDs).
     const bool restricted = id <= 0x07F || (id >= 0x101 && id <= 0x180) ||
@@ -121,7 +123,7 @@ std::uint32_t PdoRules::judgeCommunication(bool transmit, int number, std::uint8
     return kNone;
   }
   if (sub == 2) {
-    if (value > 240 && value < 254) return kValue;  // reserved, and sending on request
+    if (value > 240 && value < 254) return kValue;  // reserved, and sending on request only
     return kNone;
   }
   if (sub == 3 && in_use) return kUnsupported;

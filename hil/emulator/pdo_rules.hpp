@@ -26,6 +26,8 @@ class PdoRules {
 
   bool valid(bool transmit, int number) const;
   std::uint32_t identifier(bool transmit, int number) const;
+  /// Whether a transmit PDO is also sent when a remote frame asks for it (bit 30 clear).
+  bool onRequest(int number) const;
   int transmission(bool transmit, int number) const;
   /// Bytes of the frame.
   int length(bool transmit, int number) const;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kWarmUpCycles = 120;  // ramp over, joints moving
 constexpr int kAfterwards = 400;    // watched for torque that comes back: one second
-constexpr int kNoReaction = -1;
+constexpr int kStillOn = -1;
 
 /// The configuration of a trial: the default one, and for the angle limit one that has a limit.
 BenchConfig configOf(const Trial& trial) {
@@ -18,15 +18,7 @@ BenchConfig configOf(const Trial& trial) {
 }
 
 std::string expectedText(Reaction reaction) {
-  switch (reaction) {
-    case Reaction::kOff:
-      return "torque off";
-    case Reaction::kDampThenOff:
-      return "damping, then torque off";
-    case Reaction::kNone:
-      break;
-  }
-  return "no reaction";
+  return reaction == Reaction::kOff ? "torque off" : "damping, then torque off";
 }
 
 FaultRow rehearse(const Trial& trial) {
@@ -35,13 +27,10 @@ FaultRow rehearse(const Trial& trial) {
   row.expected = expectedText(trial.reaction);
   const BenchConfig config = configOf(trial);
   // Off: the decision, and the ramp of the drive's own stop. Damped: its time comes on top.
-  row.bound_cycles =
-      trial.reaction == Reaction::kNone
-          ? 0
-          : trial.detection_cycles + 1 +
-                (trial.reaction == Reaction::kOff ? 1 : config.safety.damping_cycles);
+  row.bound_cycles = trial.detection_cycles + 1 +
+                     (trial.reaction == Reaction::kOff ? 1 : config.safety.damping_cycles);
   Rehearsal r(config);
-  row.measured_cycles = kNoReaction;
+  row.measured_cycles = kStillOn;
   if (!r.engage()) {
     row.reason = "could not be engaged: " + r.bench().faultText();
     return row;
@@ -66,10 +55,6 @@ FaultRow rehearse(const Trial& trial) {
   row.reason = trial.without_master                    ? "the drives' own watch over the master"
                : safety.state() == SafetyState::kFault ? r.bench().faultText()
                                                        : toText(safety.state());
-  if (trial.reaction == Reaction::kNone) {
-    row.held = row.measured_cycles < 0 && safety.state() == SafetyState::kEnabled;
-    return row;
-  }
   row.held = row.measured_cycles >= 0 && row.measured_cycles <= row.bound_cycles &&
              !row.restarted &&
              (safety.fault() == trial.reason || safety.fault() == trial.or_reason) &&

@@ -98,8 +98,6 @@ std::vector<Trial> commandTrials() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Trial hung = off("master: hangs, SYNC goes on", 12, B::kNone, {});
   hung.without_master = true;
-  Trial warning{"drive: warning bit", Reaction::kNone, 0, B::kNone};
-  warning.once = order(F::kWarning);
   return {
       damped("controller: silent", SafetyConfig{}.watchdog_cycles + 1, B::kCommandTimeout, {},
              [](Rehearsal& r, BenchCommand&, int n) { r.wishes().command_age = n; }),
@@ -112,7 +110,6 @@ std::vector<Trial> commandTrials() {
       damped("person: Ctrl-C, or the session ends", 1, B::kNone,
              [](Rehearsal& r) { r.wishes().stop = true; }),
       hung,
-      warning,
   };
 }
 

@@ -15,7 +15,6 @@ constexpr double kTrialAngleLimit = 0.6;
 enum class Reaction {
   kOff,          ///< torque off at once
   kDampThenOff,  ///< bounded damping, then torque off
-  kNone,         ///< no reason to stop
 };
 
 /// One fault of the table: how it is done to the bench, and what the bench must make of it.

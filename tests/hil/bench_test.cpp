@@ -47,6 +47,18 @@ TEST(Bench, GoesOnOverTwoMissingAnswersAndStopsAtTheThird) {
   }
 }
 
+TEST(Bench, AWarningIsNoReasonToStop) {
+  BenchFixture f;
+  BenchCommand command;
+  command.torque.fill(1);
+  f.wishes.command = &command;
+  ASSERT_TRUE(f.engage()) << f.bench.faultText();
+  f.drives.inject({0, EmulatedFault::kWarning, 1, 0});
+  for (int i = 0; i < 100; ++i) f.cycle();
+  EXPECT_TRUE(f.bench.master().drive(1).statusword & kStatusWarning);
+  EXPECT_EQ(f.bench.safety().state(), SafetyState::kEnabled) << f.bench.faultText();
+}
+
 TEST(Bench, TorqueGrowsFromZeroAfterEngaging) {
   BenchFixture f("safety: {ramp_ms: 100}");
   BenchCommand command;

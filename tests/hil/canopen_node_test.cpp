@@ -208,6 +208,26 @@ TEST_F(Node, ResetCommunicationRestoresCommunicationOnly) {
   EXPECT_EQ(talk_.read(0x6087), 100'000);
 }
 
+TEST_F(Node, ARemoteFrameGetsThePdoWhereBitThirtyAllowsIt) {
+  const CanFrame request{0x185, false, true, 8, {}};
+  nmt(NmtCommand::kStart, 5);
+  said();
+  drive_.onFrame(request);
+  EXPECT_TRUE(said().empty()) << "bit 30 is set after power-on";
+  EXPECT_EQ(talk_.write(0x1800, 1, 0x80000185, 4), 0U);
+  EXPECT_EQ(talk_.write(0x1800, 1, 0x00000185, 4), 0U);
+  said();
+  drive_.onFrame(request);
+  const auto frames = said();
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].id, 0x185U);
+  EXPECT_EQ(frames[0].size, 8);
+  nmt(NmtCommand::kPreOperational, 5);
+  said();
+  drive_.onFrame(request);
+  EXPECT_TRUE(said().empty());
+}
+
 TEST_F(Node, RemoteAndExtendedFramesMeanNothingToIt) {
   nmt(NmtCommand::kStart, 5);
   said();
