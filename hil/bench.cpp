@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -84,11 +85,12 @@ void Bench::checkMotion() noexcept {
     const DriveLimits& limits = config_.drives[n].limits;
     const bool fresh = master_.drive(i).stale_cycles == 0;
     const double step = s.joint_angle[n] - last_angle_[n];
-    if (has_last_ && fresh) {
+    if (has_last_ && fresh && std::isfinite(step)) {
       mismatch_[n] += step - dt * s.joint_velocity[n];
       mismatch_[n] *= 1 - dt / kMismatchMemory;
     }
-    last_angle_[n] = s.joint_angle[n];
+    // The first sample after missing ones has come further than one period's velocity says.
+    last_angle_[n] = fresh ? s.joint_angle[n] : std::numeric_limits<double>::quiet_NaN();
     if (!torque_on) {
       mismatch_[n] = 0;
       continue;

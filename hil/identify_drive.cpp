@@ -51,12 +51,7 @@ std::complex<double> line(const std::vector<double>& signal, int k) {
   return sum;
 }
 
-}  // namespace
-
-Identification identifyDrive(BenchRunner& runner, const ExcitationPlan& plan) {
-  const BenchConfig& config = runner.bench().config();
-  const DriveConfig& drive = config.drives.at(static_cast<std::size_t>(plan.drive));
-  const double period = config.cycleSeconds();
+void requireAllowed(const ExcitationPlan& plan, const DriveConfig& drive, double period) {
   if (plan.amplitude_Nm + std::abs(plan.bias_Nm) > drive.limits.torque) {
     throw InputError(fmt::format("identify: {} Nm around {} Nm exceed the limit of {}, {} Nm",
                                  plan.amplitude_Nm, plan.bias_Nm, drive.name, drive.limits.torque));
@@ -67,6 +62,16 @@ Identification identifyDrive(BenchRunner& runner, const ExcitationPlan& plan) {
                     "{} Hz",
                     plan.low_Hz, plan.high_Hz, 0.5 / period));
   }
+}
+
+}  // namespace
+
+Identification identifyDrive(BenchRunner& runner, const ExcitationPlan& plan,
+                             const std::atomic<bool>* stop) {
+  const BenchConfig& config = runner.bench().config();
+  const DriveConfig& drive = config.drives.at(static_cast<std::size_t>(plan.drive));
+  const double period = config.cycleSeconds();
+  requireAllowed(plan, drive, period);
   const int length = static_cast<int>(std::lround(plan.record_s / period));
   const std::vector<int> lines = linesOf(plan);
   const std::vector<double> shape = multisine(lines, length);
@@ -81,6 +86,10 @@ Identification identifyDrive(BenchRunner& runner, const ExcitationPlan& plan) {
   const int ramp = config.safety.ramp_cycles;
   const auto total = ramp + static_cast<std::int64_t>(length) * plan.records;
   for (; cycle < total; ++cycle) {
+    if (stop != nullptr && stop->load()) {
+      runner.release();
+      throw InterruptedError("identify: interrupted; the drives are off");
+    }
     const auto n = static_cast<std::size_t>((cycle + length - ramp % length) % length);
     command.torque[d] = plan.bias_Nm + plan.amplitude_Nm * shape[n];
     runner.command(cycle, command);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <vector>
 
 #include "hil/bench_runner.hpp"
@@ -11,7 +12,7 @@ namespace ballbot {
 /// so that the peak stays low, around a constant torque that keeps dry friction on one side.
 struct ExcitationPlan {
   int drive = 0;
-  double amplitude_Nm = 2;  ///< peak of the sum of sines
+  double amplitude_Nm = 3.8;  ///< peak of the sum of sines; large against dry friction
   double bias_Nm = 0;
   double low_Hz = 2, high_Hz = 120;
   int lines = 24;       ///< frequencies, evenly spread in the logarithm
@@ -27,7 +28,9 @@ struct Identification {
 
 /// Excites one drive of a bench, all others at zero torque, and fits its torque response.
 /// @throw InputError if the plan exceeds the drive's torque limit or half the bus rate;
-///        LostParticipantError if the bench stops; NumericalError if nothing can be fitted.
-Identification identifyDrive(BenchRunner& runner, const ExcitationPlan& plan);
+///        LostParticipantError if the bench stops; NumericalError if nothing can be fitted;
+///        InterruptedError, with the drives off, once `stop` is set.
+Identification identifyDrive(BenchRunner& runner, const ExcitationPlan& plan,
+                             const std::atomic<bool>* stop = nullptr);
 
 }  // namespace ballbot

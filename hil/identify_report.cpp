@@ -74,25 +74,31 @@ std::string grid(const Diagram& d, double step, const char* unit) {
 
 }  // namespace
 
-std::string identifiedYaml(const std::string& drive, const Identification& found) {
-  const TorqueResponse& r = found.second;
-  const double zero = kZeroShare * r.natural_frequency;
-  return fmt::format(
+std::string identifiedYaml(const std::string& drive, const Identification& found,
+                           const IdentifiedScenario& scenario) {
+  const TorqueResponse &second = found.second, &first = found.first;
+  std::string out = fmt::format(
       "# {}: torque response identified on the bench, joint blocked, up to {:.3g} Nm.\n"
       "# second order: {:.2f} +- {:.2f} Hz, damping {:.3f} +- {:.3f}, delay {:.3f} +- {:.3f} ms,\n"
       "#   falls by 3 dB at {:.2f} Hz; rms error {:.4f}\n"
       "# first order: {:.2f} +- {:.2f} Hz, delay {:.3f} ms; rms error {:.4f}\n"
-      "actuator:                   # values for robot.actuators.wheel or arm\n"
-      "  torque_bandwidth_Hz: {:.4g}\n"
-      "  damping_ratio: {:.4g}\n"
-      "wheel_shaping:              # values for controller.mpc.wheel_shaping\n"
-      "  zero_rad_per_s: {:.4g}\n"
-      "  pole_rad_per_s: {:.4g}\n",
-      drive, found.largest_torque, r.natural_frequency / kTwoPi, r.natural_frequency_sigma / kTwoPi,
-      r.damping_ratio, r.damping_ratio_sigma, 1e3 * r.delay, 1e3 * r.delay_sigma, r.bandwidth_Hz(),
-      r.residual, found.first.bandwidth_Hz(), found.first.natural_frequency_sigma / kTwoPi,
-      1e3 * found.first.delay, found.first.residual, r.natural_frequency / kTwoPi, r.damping_ratio,
-      zero, kPoleOverZero * zero);
+      "# torque_bandwidth_Hz is the setting with which the model's drive measures -3 dB there.\n"
+      "include: {}\n"
+      "robot:\n"
+      "  actuators:\n"
+      "    {}: {{torque_bandwidth_Hz: {:.4g}}}\n",
+      drive, found.largest_torque, second.natural_frequency / kTwoPi,
+      second.natural_frequency_sigma / kTwoPi, second.damping_ratio, second.damping_ratio_sigma,
+      1e3 * second.delay, 1e3 * second.delay_sigma, second.bandwidth_Hz(), second.residual,
+      first.bandwidth_Hz(), first.natural_frequency_sigma / kTwoPi, 1e3 * first.delay,
+      first.residual, scenario.include, scenario.group, scenario.torque_bandwidth_Hz);
+  if (!scenario.shaping) return out;
+  const double zero = kZeroShare * kTwoPi * scenario.torque_bandwidth_Hz;
+  return out + fmt::format(
+                   "controller:\n"
+                   "  mpc:\n"
+                   "    wheel_shaping: {{zero_rad_per_s: {:.4g}, pole_rad_per_s: {:.4g}}}\n",
+                   zero, kPoleOverZero * zero);
 }
 
 std::string bodeSvg(const std::string& drive, const Identification& found, double period) {

@@ -20,6 +20,17 @@ class JitterHistogram {
   std::int64_t count() const noexcept { return count_; }
   std::int64_t max() const noexcept { return max_ns_; }
 
+  /// Samples from `low_ns` on and below `high_ns`, both edges of bins.
+  std::int64_t between(std::int64_t low_ns, std::int64_t high_ns) const noexcept {
+    std::int64_t seen = 0;
+    for (std::size_t i = binOf(low_ns); i < bins_.size() && edgeOf(i) <= high_ns; ++i) {
+      seen += bins_[i];
+    }
+    return seen;
+  }
+  /// Where bins end: nothing is told apart beyond it [ns].
+  static constexpr std::int64_t kEnd = 101'000'000;
+
   /// Upper edge of the bin that holds the given share of all samples [ns]; 0 without samples.
   /// @param share 0 to 1, e.g. 0.999
   std::int64_t percentile(double share) const noexcept {

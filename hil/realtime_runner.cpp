@@ -1,5 +1,6 @@
 #include "hil/realtime_runner.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <ctime>
 #include <utility>
@@ -119,6 +120,7 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
   const BenchConfig& config = bench_.config();
   const std::int64_t woke = monotonicNs();
   BenchMaster& master = bench_.master();
+  io_.collect(std::chrono::steady_clock::time_point{});  // answers to the SYNC before: too late
   master.beginCycle();
   io_.send();
   // steady_clock is CLOCK_MONOTONIC in this library.
@@ -168,6 +170,10 @@ void RealtimeRunner::loop() noexcept {
     sleepUntilNs(schedule.deadline());
     cycle(schedule.deadline());
     skipped_now_ = static_cast<int>(schedule.advance(monotonicNs()));
+    const auto last = static_cast<int>(statistics_.misses.size()) - 1;
+    if (skipped_now_ > 0) {
+      ++statistics_.misses[static_cast<std::size_t>(std::min(skipped_now_, last))];
+    }
   }
   statistics_.overruns = schedule.overruns();
   statistics_.skipped = schedule.skipped();

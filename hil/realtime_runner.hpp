@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <string>
 #include <thread>
@@ -18,7 +19,8 @@ namespace ballbot {
 
 /// Runs a bench in real time, in a thread of its own with absolute deadlines:
 ///
-///   deadline            SYNC, then the answers until all are there or `collect` has passed
+///   deadline            what came late is put aside; SYNC, then the answers until all are there
+///                       or `collect` has passed
 ///   deadline + act      the newest command goes out
 ///
 /// The thread shares only lock-free queues with the one that commands it. A controller that is late
@@ -42,6 +44,8 @@ class RealtimeRunner final : public BenchRunner {
   struct Statistics {
     JitterHistogram wake;  ///< from the deadline to the thread running
     JitterHistogram act;   ///< from the deadline to the command on its way to the bus
+    /// Times that so many periods were skipped in a row: index 1, 2, ...; the last stands for more.
+    std::array<std::int64_t, 17> misses{};
     std::int64_t cycles = 0, overruns = 0, skipped = 0;
     std::int64_t commands_missing = 0;  ///< cycles with torque that had no new command
     std::int64_t records_lost = 0;

@@ -37,8 +37,46 @@ double costOf(const std::vector<ResponsePoint>& points, const TorqueResponse& r,
   return sum;
 }
 
-/// Solves the normal equations of the `n` parameters in `used`; false if singular.
-bool solve(std::array<std::array<double, 4>, 3> a, int n, Vector& x) {
+/// The parameters that are fitted: w, T of the first order; w, D, T of the second.
+struct Free {
+  explicit Free(int order) : count(order == 1 ? 2 : 3) {
+    if (order == 1) column = {0, 2, 2};
+  }
+  std::size_t size() const { return static_cast<std::size_t>(count); }
+  int count;
+  std::array<std::size_t, 3> column{0, 1, 2};
+};
+
+/// Normal equations of a step, the right side in the last column.
+using Normal = std::array<std::array<double, 4>, 3>;
+
+Normal normalEquations(const std::vector<ResponsePoint>& points, const Vector& v, int order,
+                       double period) {
+  const Free free(order);
+  const TorqueResponse here = fromVector(v, order, period);
+  Normal normal{};
+  for (const ResponsePoint& p : points) {
+    const Complex model = here.sampledAt(p.frequency_Hz, period);
+    const Complex error = p.value - model;
+    std::array<Complex, 3> slope;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      Vector moved = v;
+      moved[free.column[i]] += kStep;
+      slope[i] =
+          (fromVector(moved, order, period).sampledAt(p.frequency_Hz, period) - model) / kStep;
+    }
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      for (std::size_t j = 0; j < free.size(); ++j) {
+        normal[i][j] += std::real(std::conj(slope[i]) * slope[j]);
+      }
+      normal[i][3] += std::real(std::conj(slope[i]) * error);
+    }
+  }
+  return normal;
+}
+
+/// Solves the first `n` of them; false if singular.
+bool solve(Normal a, int n, Vector& x) {
   for (int i = 0; i < n; ++i) {
     int pivot = i;
     for (int r = i + 1; r < n; ++r) {
@@ -62,6 +100,20 @@ bool solve(std::array<std::array<double, 4>, 3> a, int n, Vector& x) {
     x[k] = a[k][3] / a[k][k];
   }
   return true;
+}
+
+/// Standard deviations: residual variance times the inverse of the normal matrix, by columns.
+Vector deviations(const Normal& normal, const Free& free, double variance) {
+  Vector sigma{};
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    Normal unit = normal;
+    for (std::size_t r = 0; r < 3; ++r) unit[r][3] = r == i ? 1 : 0;
+    Vector column{};
+    if (solve(unit, free.count, column)) {
+      sigma[free.column[i]] = std::sqrt(std::abs(variance * column[i]));
+    }
+  }
+  return sigma;
 }
 
 }  // namespace
@@ -96,43 +148,24 @@ double TorqueResponse::bandwidth_Hz() const {
 
 TorqueResponse fitTorqueResponse(const std::vector<ResponsePoint>& points, int order,
                                  double period) {
-  const int n = order == 1 ? 2 : 3;
-  // Columns of the parameters that are free: w, T for the first order; w, D, T for the second.
-  const std::array<std::size_t, 3> free =
-      order == 1 ? std::array<std::size_t, 3>{0, 2, 2} : std::array<std::size_t, 3>{0, 1, 2};
-  if (static_cast<int>(points.size()) < n) {
+  const Free free(order);
+  if (static_cast<int>(points.size()) < free.count) {
     throw NumericalError(fmt::format("{} points do not determine a response", points.size()));
   }
   Vector v{std::log(kTwoPi * 0.1 / period), 0.7, 0.1};
   double cost = costOf(points, fromVector(v, order, period), period);
   double damping = 1e-3;  // Levenberg and Marquardt's
-  std::array<std::array<double, 4>, 3> normal{};
+  Normal normal{};
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    normal = {};
-    const TorqueResponse here = fromVector(v, order, period);
-    for (const ResponsePoint& p : points) {
-      const Complex model = here.sampledAt(p.frequency_Hz, period);
-      const Complex error = p.value - model;
-      std::array<Complex, 3> slope;
-      for (int i = 0; i < n; ++i) {
-        Vector moved = v;
-        moved[free[static_cast<std::size_t>(i)]] += kStep;
-        slope[static_cast<std::size_t>(i)] =
-            (fromVector(moved, order, period).sampledAt(p.frequency_Hz, period) - model) / kStep;
-      }
-      for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
-        for (std::size_t j = 0; j < static_cast<std::size_t>(n); ++j) {
-          normal[i][j] += std::real(std::conj(slope[i]) * slope[j]);
-        }
-        normal[i][3] += std::real(std::conj(slope[i]) * error);
-      }
-    }
-    auto damped = normal;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) damped[i][i] *= 1 + damping;
+    normal = normalEquations(points, v, order, period);
+    Normal damped = normal;
+    for (std::size_t i = 0; i < free.size(); ++i) damped[i][i] *= 1 + damping;
     Vector step{};
-    if (!solve(damped, n, step)) throw NumericalError("the measured response determines no model");
+    if (!solve(damped, free.count, step)) {
+      throw NumericalError("the measured response determines no model");
+    }
     Vector next = v;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) next[free[i]] += step[i];
+    for (std::size_t i = 0; i < free.size(); ++i) next[free.column[i]] += step[i];
     const double next_cost = costOf(points, fromVector(next, order, period), period);
     if (next_cost < cost && next[1] > 0) {
       const bool settled = cost - next_cost < 1e-14 * (cost + 1e-12);
@@ -148,18 +181,7 @@ TorqueResponse fitTorqueResponse(const std::vector<ResponsePoint>& points, int o
   TorqueResponse fitted = fromVector(v, order, period);
   const auto count = static_cast<double>(points.size());
   fitted.residual = std::sqrt(cost / count);
-  // Covariance: residual variance times the inverse of the normal matrix, column by column.
-  const double variance = cost / std::max(1.0, 2 * count - n);
-  std::array<double, 3> sigma{};
-  for (int i = 0; i < n; ++i) {
-    auto unit = normal;
-    for (std::size_t r = 0; r < 3; ++r) unit[r][3] = static_cast<int>(r) == i ? 1 : 0;
-    Vector column{};
-    if (solve(unit, n, column)) {
-      const auto k = static_cast<std::size_t>(i);
-      sigma[free[k]] = std::sqrt(std::abs(variance * column[k]));
-    }
-  }
+  const Vector sigma = deviations(normal, free, cost / std::max(1.0, 2 * count - free.count));
   fitted.natural_frequency_sigma = fitted.natural_frequency * sigma[0];
   fitted.damping_ratio_sigma = sigma[1];
   fitted.delay_sigma = period * sigma[2];

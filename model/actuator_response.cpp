@@ -3,13 +3,30 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <fmt/format.h>
 
 #include "core/angle.hpp"
+#include "core/error.hpp"
 
 namespace ballbot {
 namespace {
 
 constexpr double kHighestHz = 1e5;  // no drive's torque loop gets there
+constexpr double kHighestWantedHz = 500;
+
+/// Frequency above which a gain stays below -3 dB [rad/s].
+template <typename Gain>
+double lastCrossing(const Gain& gain) {
+  const double level = std::sqrt(0.5);
+  double low = kTwoPi * kHighestHz;
+  while (low > 1e-3 && gain(low) < level) low /= 1.1;
+  double high = 1.1 * low;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (gain(middle) < level ? high : low) = middle;
+  }
+  return low;
+}
 
 }  // namespace
 
@@ -26,15 +43,37 @@ std::complex<double> ActuatorResponse::at(double omega, double one_over_inertia)
 }
 
 double ActuatorResponse::bandwidth() const {
-  const double level = std::sqrt(0.5);
-  double low = kTwoPi * kHighestHz;
-  while (low > 1e-3 && std::abs(blocked(low)) < level) low /= 1.1;
-  double high = 1.1 * low;
+  return lastCrossing([this](double omega) { return std::abs(blocked(omega)); });
+}
+
+double torqueBandwidthFor(ActuatorParameters p, double drive_period, double measured_bandwidth_Hz) {
+  const auto reached = [&](double wanted_Hz) {
+    p.torque_bandwidth = wanted_Hz;
+    const ActuatorResponse response(p, drive_period);
+    const double crossing = lastCrossing([&](double omega) {
+      const std::complex<double> spring(p.spring_stiffness, p.spring_damping * omega);
+      return std::abs(response.blocked(omega) * p.spring_stiffness / spring);
+    });
+    return crossing / kTwoPi >= measured_bandwidth_Hz;
+  };
+  // Below the spring's own frequency the loop would need a negative gain.
+  const double lowest = std::sqrt(p.spring_stiffness / p.reflectedInertia()) / kTwoPi;
+  double low = lowest, high = lowest;
+  while (!reached(high) && high < kHighestWantedHz) {
+    low = high;
+    high *= 1.05;
+  }
+  if (high == lowest || high >= kHighestWantedHz) {
+    throw NumericalError(
+        fmt::format("no drive of this motor and spring has a bandwidth of {:.3g} Hz: "
+                    "it can be set from {:.3g} Hz on",
+                    measured_bandwidth_Hz, lowest));
+  }
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    (std::abs(blocked(middle)) < level ? high : low) = middle;
+    (reached(middle) ? high : low) = middle;
   }
-  return low;
+  return high;
 }
 
 JointVector freeInertia(const ReducedDynamics& dynamics, const PositionVector& q) {

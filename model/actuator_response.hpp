@@ -32,6 +32,11 @@ class ActuatorResponse {
   double half_tick_;
 };
 
+/// The `torque_bandwidth` [Hz] with which an actuator like `p`, output blocked, measures -3 dB there:
+/// by its encoders, which see the spring's deflection and not the torque of the spring's damping.
+/// @throw NumericalError if no drive of this motor and spring has it
+double torqueBandwidthFor(ActuatorParameters p, double drive_period, double measured_bandwidth_Hz);
+
 /// The inertia that each joint's torque feels while all other joints are free to move [kg m^2].
 JointVector freeInertia(const ReducedDynamics& dynamics, const PositionVector& q);
 

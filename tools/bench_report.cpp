@@ -1,32 +1,83 @@
 #include "tools/bench_report.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace ballbot {
 namespace {
 
-nlohmann::ordered_json percentilesJson(const JitterHistogram& h) {
-  nlohmann::ordered_json out;
+using Report = nlohmann::ordered_json;
+
+// Where the rows of a printed histogram begin [us].
+constexpr std::int64_t kRowsUs[] = {0,    10,   20,   50,    100,   200,   500,
+                                    1000, 2000, 5000, 10000, 20000, 50000, 100000};
+constexpr int kBarLength = 40;
+
+Report latenessJson(const JitterHistogram& h) {
+  Report out;
   const std::pair<const char*, double> shares[] = {
       {"p50_us", 0.5}, {"p99_us", 0.99}, {"p999_us", 0.999}, {"max_us", 1.0}};
   for (const auto& [name, share] : shares) {
     out[name] = 1e-3 * static_cast<double>(h.percentile(share));
   }
+  out["histogram"] = Report::array();
+  for (std::size_t i = 0; i < std::size(kRowsUs); ++i) {
+    const bool last = i + 1 == std::size(kRowsUs);
+    const std::int64_t end = last ? JitterHistogram::kEnd : 1000 * kRowsUs[i + 1];
+    out["histogram"].push_back(
+        {{"from_us", kRowsUs[i]}, {"count", h.between(1000 * kRowsUs[i], end)}});
+  }
   return out;
+}
+
+std::string latenessText(const char* what, const Report& late) {
+  std::string out = fmt::format("{}: p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, max {:.0f} us\n", what,
+                                late["p50_us"].get<double>(), late["p99_us"].get<double>(),
+                                late["p999_us"].get<double>(), late["max_us"].get<double>());
+  std::int64_t most = 1;
+  for (const Report& row : late["histogram"])
+    most = std::max(most, row["count"].get<std::int64_t>());
+  for (const Report& row : late["histogram"]) {
+    const auto count = row["count"].get<std::int64_t>();
+    if (count == 0) continue;
+    // One mark for the rare ones, too: they are what one looks for.
+    const auto marks =
+        static_cast<std::size_t>(std::max<std::int64_t>(1, kBarLength * count / most));
+    out += fmt::format("  from {:>6} us {:>9}  {}\n", row["from_us"].get<std::int64_t>(), count,
+                       std::string(marks, '#'));
+  }
+  return out;
+}
+
+std::string realtimeText(const Report& r) {
+  std::string out = fmt::format("real time: {}\n", r["granted"].get<std::string>());
+  out += latenessText("SYNC late by", r["wake_late"]);
+  out += latenessText("torque on its way after the deadline of SYNC", r["sync_to_torque"]);
+  out += fmt::format("deadline misses: {} cycles took longer than their period, {} periods skipped",
+                     r["overruns"].get<std::int64_t>(), r["periods_skipped"].get<std::int64_t>());
+  for (const Report& row : r["misses"]) {
+    out += fmt::format("; {} times {} in a row", row["count"].get<std::int64_t>(),
+                       row["periods"].get<int>());
+  }
+  return out + fmt::format("\ncycles without a new command: {}\n",
+                           r["cycles_without_new_command"].get<std::int64_t>());
 }
 
 }  // namespace
 
-nlohmann::ordered_json benchJson(const Bench& bench, const BenchIo& io) {
+Report benchJson(const Bench& bench, const BenchIo& io) {
   const BenchConfig& config = bench.config();
-  nlohmann::ordered_json out;
+  Report out;
   const auto cycles = static_cast<double>(bench.master().cycle());
   out["cycles"] = bench.master().cycle();
   out["state"] = toText(bench.safety().state());
   out["fault"] = bench.faultText();
   out["saturated_cycles"] = bench.saturatedCycles();
   out["bad_pdos"] = bench.master().badPdos();
-  out["bus_load"] = nlohmann::ordered_json::array();
+  out["late_pdos"] = bench.master().latePdos();
+  out["bus_load"] = Report::array();
   for (std::size_t i = 0; i < config.buses.size() && cycles > 0; ++i) {
     const BenchIo::Load& load = io.load(static_cast<int>(i));
     const double capacity = cycles * config.cycleSeconds() * 1000.0 * config.buses[i].bitrate_kbps;
@@ -36,16 +87,91 @@ nlohmann::ordered_json benchJson(const Bench& bench, const BenchIo& io) {
   return out;
 }
 
-nlohmann::ordered_json realtimeJson(const RealtimeRunner::Statistics& s) {
-  nlohmann::ordered_json out;
+Report realtimeJson(const RealtimeRunner::Statistics& s) {
+  Report out;
   out["granted"] = s.grant.text;
   out["cycles"] = s.cycles;
   out["overruns"] = s.overruns;
   out["periods_skipped"] = s.skipped;
+  out["misses"] = Report::array();
+  for (std::size_t i = 1; i < s.misses.size(); ++i) {
+    if (s.misses[i] > 0) out["misses"].push_back({{"periods", i}, {"count", s.misses[i]}});
+  }
   out["cycles_without_new_command"] = s.commands_missing;
   out["records_lost"] = s.records_lost;
-  out["wake_late"] = percentilesJson(s.wake);
-  out["sync_to_torque"] = percentilesJson(s.act);
+  out["wake_late"] = latenessJson(s.wake);
+  out["sync_to_torque"] = latenessJson(s.act);
+  return out;
+}
+
+std::string benchText(const Report& r) {
+  std::string out = fmt::format("bench: {} after {} cycles, {} with torque cut to its limits\n",
+                                r["state"].get<std::string>(), r["cycles"].get<std::int64_t>(),
+                                r["saturated_cycles"].get<std::int64_t>());
+  if (!r["fault"].get<std::string>().empty()) {
+    out += fmt::format("fault: {}\n", r["fault"].get<std::string>());
+  }
+  int bus = 0;
+  for (const Report& load : r["bus_load"]) {
+    out += fmt::format("bus {}: load {:.0f} %, {:.0f} % with the most stuffing\n", bus++,
+                       100 * load["nominal"].get<double>(),
+                       100 * load["worst_stuffing"].get<double>());
+  }
+  out += fmt::format("PDOs of wrong length: {}, too late: {}\n", r["bad_pdos"].get<std::int64_t>(),
+                     r["late_pdos"].get<std::int64_t>());
+  return r.contains("realtime") ? out + realtimeText(r["realtime"]) : out;
+}
+
+bool allGood(const std::vector<NodeReport>& nodes) {
+  return std::all_of(nodes.begin(), nodes.end(), [](const NodeReport& r) {
+    return r.found && r.disagreements.empty() && r.last_error.empty();
+  });
+}
+
+Report checkJson(const std::vector<NodeReport>& nodes) {
+  Report list = Report::array();
+  for (const NodeReport& r : nodes) {
+    list.push_back({{"name", r.name},
+                    {"bus", r.bus},
+                    {"node", r.node},
+                    {"found", r.found},
+                    {"device", r.device},
+                    {"firmware", r.firmware},
+                    {"serial", r.serial},
+                    {"rated_torque_Nm", r.rated_torque_Nm},
+                    {"max_torque_Nm", r.max_torque_Nm},
+                    {"encoder_counts", r.encoder_counts},
+                    {"supply_V", r.supply_V},
+                    {"temperature_degC", r.temperature_degC},
+                    {"state", r.state},
+                    {"last_error", r.last_error},
+                    {"disagreements", r.disagreements}});
+  }
+  return {{"nodes", list}, {"good", allGood(nodes)}};
+}
+
+std::string checkTable(const std::vector<NodeReport>& nodes) {
+  std::string out = fmt::format(
+      "{:<8} {:>3} {:>4}  {:<24} {:>8} {:>6} {:>8} {:>6} {:>8} {:>6} {:>5}  {}\n", "", "bus",
+      "node", "device", "firmware", "serial", "rated Nm", "max Nm", "counts", "degC", "V", "state");
+  for (const NodeReport& r : nodes) {
+    out += fmt::format("{:<8} {:>3} {:>4}  ", r.name, r.bus, r.node);
+    if (!r.found) {
+      out += "does not answer\n";
+      continue;
+    }
+    out += fmt::format("{:<24} {:>8} {:>6}", r.device, r.firmware, r.serial);
+    if (!r.state.empty()) {
+      out +=
+          fmt::format(" {:>8.4g} {:>6.4g} {:>8} {:>6.4g} {:>5.3g}  {}", r.rated_torque_Nm,
+                      r.max_torque_Nm, r.encoder_counts, r.temperature_degC, r.supply_V, r.state);
+    }
+    out += '\n';
+    if (!r.last_error.empty()) out += fmt::format("         last error: {}\n", r.last_error);
+    for (const std::string& text : r.disagreements) {
+      out += fmt::format("         DIFFERS: {}\n", text);
+    }
+  }
   return out;
 }
 

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "hil/bench.hpp"
+#include "hil/bench_check.hpp"
 #include "hil/bench_io.hpp"
 #include "hil/realtime_runner.hpp"
 
@@ -11,7 +15,17 @@ namespace ballbot {
 /// How a bench ended and how full its buses were.
 nlohmann::ordered_json benchJson(const Bench& bench, const BenchIo& io);
 
-/// How late a real-time loop was: percentiles, overruns, what the system granted.
+/// How late a real-time loop was: percentiles and histograms of lateness, deadline misses, what the
+/// system granted.
 nlohmann::ordered_json realtimeJson(const RealtimeRunner::Statistics& statistics);
+
+/// The two above for people: a few lines and two histograms. @param report as they gave it
+std::string benchText(const nlohmann::ordered_json& report);
+
+/// What `hil --check` found, as JSON and as a table.
+nlohmann::ordered_json checkJson(const std::vector<NodeReport>& nodes);
+std::string checkTable(const std::vector<NodeReport>& nodes);
+/// Whether every node is there, without error, and agrees with the configuration.
+bool allGood(const std::vector<NodeReport>& nodes);
 
 }  // namespace ballbot

@@ -13,14 +13,18 @@ ConfigNode loadBenchTree(const std::string& path, const std::vector<std::string>
   return tree;
 }
 
-Scenario loadBenchScenario(const BenchConfig& bench, const std::string& bench_path) {
+std::string benchScenarioPath(const BenchConfig& bench, const std::string& bench_path) {
   if (bench.scenario_path.empty()) {
     throw InputError(bench_path +
                      ": names no scenario; add e.g. scenario: ../scenarios/balance.yaml");
   }
   const std::filesystem::path file = bench.scenario_path;
   const auto beside = std::filesystem::path(bench_path).parent_path() / file;
-  return loadScenario(file.is_absolute() ? file.string() : beside.string(), bench.overrides);
+  return file.is_absolute() ? file.string() : beside.string();
+}
+
+Scenario loadBenchScenario(const BenchConfig& bench, const std::string& bench_path) {
+  return loadScenario(benchScenarioPath(bench, bench_path), bench.overrides);
 }
 
 }  // namespace ballbot

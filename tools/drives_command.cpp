@@ -12,12 +12,16 @@
 #include "hil/emulator/joint_rig.hpp"
 #include "hil/emulator/serve_drives.hpp"
 #include "hil/open_can_bus.hpp"
+#include "hil/realtime_thread.hpp"
 #include "tools/bench_scenario.hpp"
 #include "tools/commands.hpp"
 #include "tools/interrupt.hpp"
 
 namespace ballbot {
 namespace {
+
+// Below that of `ballbot hil`, which must be on time even if the drives are not.
+constexpr int kEmulatorPriority = 70;
 
 struct DrivesArguments {
   std::string config;
@@ -45,6 +49,9 @@ ExitCode emulateDrives(const DrivesArguments& a) {
   for (const auto& bus : buses) fmt::print(stderr, "{}\n", bus->describe());
   fmt::print(stderr, "six drives and an IMU are powered on; {}. Ctrl-C ends.\n",
              config.stepped ? "SYNC is their clock" : "in real time");
+  if (!config.stepped) {
+    fmt::print(stderr, "drives: {}\n", becomeRealtime(kEmulatorPriority).text);
+  }
   serveDrives(bench, config, buses, interruptFlag());
   if (a.json) {
     nlohmann::ordered_json out;

@@ -35,9 +35,13 @@ ExitCode showFaults(bool json) {
   const std::vector<FaultRow> rows = rehearseFaults();
   bool held = true;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  if (!json) {
+    fmt::print("{:<4} {:<54} {:<26} {:>5} {:>6}  {}\n", "", "fault", "expected", "bound", "cycles",
+               "what the bench said");
+  }
   for (const FaultRow& r : rows) {
     held = held && r.held;
-    list.push_back({{"fault", r.fault},
+    list.push_back({{"name", r.fault},
                     {"expected", r.expected},
                     {"bound_cycles", r.bound_cycles},
                     {"measured_cycles", r.measured_cycles},
@@ -75,42 +79,9 @@ struct OpenBuses {
 ExitCode showBench(const HilArguments& a) {
   const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
   const OpenBuses buses(config);
-  const auto reports = checkBench(config, buses.ends, std::chrono::milliseconds(200));
-  bool good = true;
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const NodeReport& r : reports) {
-    good = good && r.found && r.disagreements.empty() && r.last_error.empty();
-    list.push_back({{"name", r.name},
-                    {"bus", r.bus},
-                    {"node", r.node},
-                    {"found", r.found},
-                    {"device", r.device},
-                    {"firmware", r.firmware},
-                    {"serial", r.serial},
-                    {"rated_torque_Nm", r.rated_torque_Nm},
-                    {"max_torque_Nm", r.max_torque_Nm},
-                    {"encoder_counts", r.encoder_counts},
-                    {"supply_V", r.supply_V},
-                    {"temperature_degC", r.temperature_degC},
-                    {"state", r.state},
-                    {"last_error", r.last_error},
-                    {"disagreements", r.disagreements}});
-    if (a.json) continue;
-    fmt::print(
-        "{:<8} bus {} node {:<3} {}\n", r.name, r.bus, r.node,
-        !r.found ? "does not answer"
-                 : fmt::format("{} {}, serial {}{}", r.device, r.firmware, r.serial,
-                               r.state.empty() ? ""
-                                               : fmt::format(", {:.3g} Nm rated, {:.3g} Nm max, {} "
-                                                             "counts, {:.3g} V, {:.3g} degC, {}",
-                                                             r.rated_torque_Nm, r.max_torque_Nm,
-                                                             r.encoder_counts, r.supply_V,
-                                                             r.temperature_degC, r.state)));
-    if (!r.last_error.empty()) fmt::print("         last error: {}\n", r.last_error);
-    for (const std::string& text : r.disagreements) fmt::print("         DIFFERS: {}\n", text);
-  }
-  if (a.json) fmt::print("{}\n", nlohmann::ordered_json{{"nodes", list}, {"good", good}}.dump(2));
-  return good ? ExitCode::kPassed : ExitCode::kRequirementMissed;
+  const auto nodes = checkBench(config, buses.ends, std::chrono::milliseconds(200));
+  fmt::print("{}", a.json ? checkJson(nodes).dump(2) + "\n" : checkTable(nodes));
+  return allGood(nodes) ? ExitCode::kPassed : ExitCode::kRequirementMissed;
 }
 
 ServeReport serveRunner(BenchRunner& runner, const HilArguments& a, std::uint64_t digest) {
@@ -150,9 +121,8 @@ ExitCode serveBench(const HilArguments& a) {
     fault = runner.bench().faultText();
     report = benchJson(runner.bench(), runner.io());
     report["realtime"] = realtimeJson(runner.statistics());
-    fmt::print(stderr, "hil: {}\n", runner.statistics().grant.text);
   }
-  if (a.json) fmt::print("{}\n", report.dump(2));
+  fmt::print("{}", a.json ? report.dump(2) + "\n" : benchText(report));
   if (!fault.empty()) throw LostParticipantError("bench", "hil: " + fault);
   return served.end == ServeEnd::kInterrupted ? ExitCode::kInterrupted : ExitCode::kPassed;
 }

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -8,20 +9,24 @@
 #include <nlohmann/json.hpp>
 
 #include "core/angle.hpp"
+#include "experiment/scenario.hpp"
 #include "hil/identify_drive.hpp"
 #include "hil/identify_report.hpp"
 #include "hil/open_can_bus.hpp"
 #include "hil/realtime_runner.hpp"
 #include "hil/stepped_runner.hpp"
+#include "model/actuator_response.hpp"
+#include "plant/plant_config.hpp"
 #include "tools/bench_report.hpp"
 #include "tools/bench_scenario.hpp"
 #include "tools/commands.hpp"
+#include "tools/interrupt.hpp"
 
 namespace ballbot {
 namespace {
 
 struct IdentifyArguments {
-  std::string config, out, figure;
+  std::string config, scenario, out, figure;
   std::vector<std::string> overrides;
   ExcitationPlan plan;
   int drive = 1;
@@ -50,9 +55,51 @@ void writeIdentifiedFile(const std::string& path, const std::string& text) {
   fmt::print(stderr, "identify: wrote {}\n", path);
 }
 
+/// The scenario that what is found will change.
+struct ScenarioToChange {
+  std::string path;
+  PlantConfig plant;
+  bool mpc = false;
+};
+
+ScenarioToChange scenarioToChange(const IdentifyArguments& a, const BenchConfig& config) {
+  const bool of_bench = a.scenario.empty();
+  ScenarioToChange out;
+  out.path = of_bench ? benchScenarioPath(config, a.config) : a.scenario;
+  const Scenario scenario =
+      loadScenario(out.path, of_bench ? config.overrides : std::vector<std::string>{});
+  out.plant = readPlantConfig(scenario.tree);
+  const ConfigNode* controller = scenario.tree.find("controller");
+  const ConfigNode* kind = controller == nullptr ? nullptr : controller->find("kind");
+  out.mpc = kind != nullptr && kind->text() == "mpc";
+  if (!out.mpc) {
+    fmt::print(stderr,
+               "identify: {} has no MPC whose frequency shaping could be matched; --scenario names "
+               "another one\n",
+               out.path);
+  }
+  return out;
+}
+
+IdentifiedScenario meaningOf(const Identification& found, const IdentifyArguments& a,
+                             const ScenarioToChange& scenario) {
+  namespace fs = std::filesystem;
+  // As seen from the file that is written.
+  const fs::path folder = fs::absolute(a.out.empty() ? "." : a.out).parent_path();
+  IdentifiedScenario out;
+  out.include = fs::absolute(scenario.path).lexically_normal().lexically_relative(folder).string();
+  out.group = a.plan.drive < kWheelCount ? "wheel" : "arm";
+  out.torque_bandwidth_Hz =
+      torqueBandwidthFor(scenario.plant.actuators.of(a.plan.drive),
+                         toSeconds(scenario.plant.drive_period), found.second.bandwidth_Hz());
+  out.shaping = scenario.mpc && a.plan.drive < kWheelCount;
+  return out;
+}
+
 ExitCode identifyOnBench(IdentifyArguments a) {
   const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
   a.plan.drive = a.drive - 1;
+  const ScenarioToChange scenario = scenarioToChange(a, config);
   std::vector<std::unique_ptr<CanBus>> owned;
   std::vector<CanBus*> ends;
   for (const BusConfig& bus : config.buses) {
@@ -68,14 +115,17 @@ ExitCode identifyOnBench(IdentifyArguments a) {
   const std::string& name = config.drives[static_cast<std::size_t>(a.plan.drive)].name;
   fmt::print(stderr, "identify: {} gets up to {} Nm for {:.3g} s. Block its joint.\n", name,
              a.plan.amplitude_Nm + std::abs(a.plan.bias_Nm), a.plan.records * a.plan.record_s);
-  const Identification found = identifyDrive(*runner, a.plan);
-  if (!a.out.empty()) writeIdentifiedFile(a.out, identifiedYaml(name, found));
+  const Identification found = identifyDrive(*runner, a.plan, interruptFlag());
+  const IdentifiedScenario meaning = meaningOf(found, a, scenario);
+  const std::string yaml = identifiedYaml(name, found, meaning);
+  if (!a.out.empty()) writeIdentifiedFile(a.out, yaml);
   if (!a.figure.empty()) writeIdentifiedFile(a.figure, bodeSvg(name, found, config.cycleSeconds()));
   if (a.json) {
     nlohmann::ordered_json j;
     j["drive"] = name;
     j["first_order"] = responseJson(found.first);
     j["second_order"] = responseJson(found.second);
+    j["torque_bandwidth_Hz"] = meaning.torque_bandwidth_Hz;
     for (const ResponsePoint& p : found.points) {
       j["points"].push_back({{"frequency_Hz", p.frequency_Hz},
                              {"gain", std::abs(p.value)},
@@ -88,7 +138,7 @@ ExitCode identifyOnBench(IdentifyArguments a) {
     }
     fmt::print("{}\n", j.dump(2));
   } else {
-    fmt::print("{}", identifiedYaml(name, found));
+    fmt::print("{}", yaml);
   }
   return ExitCode::kPassed;
 }
@@ -110,7 +160,12 @@ void addIdentifyCommand(CLI::App& program, ExitCode& result) {
       ->capture_default_str();
   command->add_option("--record-s", a->plan.record_s, "Length of one period of the signal")
       ->capture_default_str();
-  command->add_option("--out", a->out, "Write actuator and frequency-shaping values here (YAML)");
+  command->add_option("--scenario", a->scenario,
+                      "Scenario to change by what is found; default: the bench file's");
+  command->add_option(
+      "--out", a->out,
+      "Write that scenario here, with the actuators and the MPC's frequency shaping\n"
+      "of this drive: ballbot run and bode take it");
   command->add_option("--figure", a->figure, "Draw the Bode picture here (SVG)");
   command->add_option("--set", a->overrides, "path=value: change one value of the bench file")
       ->expected(1)
@@ -120,8 +175,11 @@ void addIdentifyCommand(CLI::App& program, ExitCode& result) {
   command->footer(
       "The joint must be blocked, or what is measured is the joint.\n"
       "Example:\n"
-      "  ballbot identify configs/hil/bench.yaml --drive 1 --out wheel.yaml --figure wheel.svg\n"
-      "Exit codes: 0 fitted, 2 bad input, 3 the bench stopped or no fit.");
+      "  ballbot identify configs/hil/bench.yaml --drive 1 --figure wheel.svg \\\n"
+      "    --scenario configs/scenarios/balance.yaml --out wheel.yaml\n"
+      "  ballbot bode wheel.yaml\n"
+      "Exit codes: 0 fitted, 2 bad input, 3 the bench stopped or no fit,\n"
+      "130 interrupted, with the drives off.");
   command->callback([&result, a] { result = identifyOnBench(*a); });
 }
 

@@ -53,7 +53,7 @@ void readDriveValues(ConfigReader& in, EmulatedDriveParameters& p) {
 
 void readRig(ConfigReader in, EmulatorConfig& c) {
   c.rig = true;
-  c.rig_bandwidth_Hz = in.numberOr("torque_bandwidth_Hz", c.rig_bandwidth_Hz, {0.1, 150});
+  c.rig_bandwidth_Hz = in.numberOr("natural_frequency_Hz", c.rig_bandwidth_Hz, {0.1, 150});
   c.rig_damping_ratio = in.numberOr("damping_ratio", c.rig_damping_ratio, {0.05, 2});
   c.rig_delay_ms = in.numberOr("delay_ms", c.rig_delay_ms, {0, 50});
   c.rig_blocked = in.booleanOr("blocked", c.rig_blocked);

@@ -107,6 +107,13 @@ TEST(IdentifyDrive, KeepsToTheLimits) {
   EXPECT_THROW(identifyDrive(stand.runner, plan), InputError);
 }
 
+TEST(IdentifyDrive, LeavesTheDrivesOffWhenInterrupted) {
+  Stand stand({40, 0.7, 0, true});
+  const std::atomic<bool> stop{true};
+  EXPECT_THROW(identifyDrive(stand.runner, {}, &stop), InterruptedError);
+  EXPECT_FALSE(stand.drives.anyEnergized());
+}
+
 TEST(BenchCheck, TellsWhatIsThereAndWhatDisagreesWithoutTouchingIt) {
   Stand stand({}, ", drive_defaults: {rated_torque_Nm: 10}, imu: {node: 9}");
   const auto reports = checkBench(stand.config, {&stand.bus}, std::chrono::milliseconds(10));

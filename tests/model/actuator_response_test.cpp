@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
@@ -30,6 +31,20 @@ TEST(ActuatorResponse, IsTheWantedSecondOrderSystemWithTheOutputBlocked) {
     }
     EXPECT_NEAR(response.bandwidth(), w0, 1e-3 * w0);
   }
+}
+
+// What encoders measure is k times the deflection: blocked torque without the damping's share.
+TEST(ActuatorResponse, TheWantedBandwidthIsFoundFromTheMeasuredOne) {
+  ActuatorParameters p;
+  const double k = p.spring_stiffness, d = p.spring_damping;
+  for (const double measured_Hz : {20.0, 40.0, 60.0}) {
+    const double omega = 2 * M_PI * measured_Hz;
+    p.torque_bandwidth = torqueBandwidthFor(p, 4e-4, measured_Hz);
+    const std::complex<double> torque = ActuatorResponse(p, 4e-4).blocked(omega);
+    EXPECT_NEAR(std::abs(torque * k / std::complex<double>(k, d * omega)), std::sqrt(0.5), 1e-6);
+  }
+  EXPECT_THROW(torqueBandwidthFor(p, 4e-4, 3), NumericalError);
+  EXPECT_THROW(torqueBandwidthFor(p, 4e-4, 1e4), NumericalError);
 }
 
 TEST(ActuatorResponse, AFreeLoadFeelsTheRotorsInertiaThatTheLoopLeavesOver) {
