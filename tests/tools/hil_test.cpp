@@ -127,11 +127,11 @@ TEST(BenchPrograms, IdentifyRecoversTheResponseOfATestStand) {
   drives.finish();
 }
 
-// From bench to MPC: the plant's series elastic drive in the stand, at 30 Hz instead of the 40 Hz
+// From bench to MPC: the plant's series elastic drive in the stand, at 50 Hz instead of the 40 Hz
 // that everything else in the configuration believes in.
 TEST(BenchPrograms, IdentifyFindsThePlantsDriveAndWritesAScenarioForIt) {
   Drives drives(
-      {"--set", "set=[initial.release_s=60, robot.actuators.wheel.torque_bandwidth_Hz=30]"});
+      {"--set", "set=[initial.release_s=60, robot.actuators.wheel.torque_bandwidth_Hz=50]"});
   const TemporaryFolder folder;
   const std::string yaml = folder / "wheel.yaml", svg = folder / "wheel.svg";
   const Finished f = runBallbot({"identify", kBench, "--drive", "2", "--out", yaml, "--figure", svg,
@@ -139,13 +139,13 @@ TEST(BenchPrograms, IdentifyFindsThePlantsDriveAndWritesAScenarioForIt) {
                                  "--set", "buses.0.address=\"slcan:" + Drives::base() + "0\"",
                                  "--set", "buses.1.address=\"slcan:" + Drives::base() + "1\""});
   ASSERT_EQ(f.exit_code, 0) << f.err;
-  EXPECT_NEAR(Json::parse(f.out)["torque_bandwidth_Hz"], 30, 0.05 * 30);
+  EXPECT_NEAR(Json::parse(f.out)["torque_bandwidth_Hz"], 50, 0.05 * 50);
   EXPECT_THAT(readFile(svg), HasSubstr("Torque response of wheel 2"));
   const Finished bode = runBallbot({"bode", yaml, "--json"});
   ASSERT_EQ(bode.exit_code, 0) << bode.err;
   const Json loop = Json::parse(bode.out);
   const double wanted = loop["actuators"]["wheel"]["wanted_bandwidth_Hz"];
-  EXPECT_NEAR(wanted, 30, 0.05 * 30);
+  EXPECT_NEAR(wanted, 50, 0.05 * 50);
   EXPECT_EQ(loop["actuators"]["arm"]["wanted_bandwidth_Hz"], 40) << "the other group is left alone";
   EXPECT_NEAR(loop["shaping"]["zero_rad_per_s"], 0.4 * 6.2832 * wanted, 0.1);
   const Finished run = runBallbot(
