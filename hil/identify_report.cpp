@@ -108,8 +108,8 @@ std::string bodeSvg(const std::string& drive, const Identification& found, doubl
   std::string out = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 640 500' font-family='sans-serif' "
       "font-size='11'>\n<rect width='640' height='500' fill='white'/>\n"
-      "<text x='{}' y='18' font-size='13'>Torque response of {}: measured (dots), second order "
-      "(blue), first order (orange); Hz</text>\n",
+      "<text x='{}' y='18' font-size='12'>Torque response of {} over Hz: measured (dots), second order "
+      "(blue), first (orange)</text>\n",
       kLeft, drive);
   out += grid(gain, 10, "dB") + grid(phase, 90, "deg");
   const auto draw = [&](const TorqueResponse& fit, const char* colour) {
