@@ -14,7 +14,7 @@ class SteppedRunner final : public BenchRunner {
   /// The buses must outlive this.
   /// @param patience  for the answers of one cycle; what has not come then counts as missing
   SteppedRunner(const BenchConfig& config, std::vector<CanBus*> buses,
-                std::chrono::milliseconds patience = std::chrono::milliseconds(2000));
+                std::chrono::milliseconds patience = std::chrono::seconds(5));
   ~SteppedRunner() override;
 
   void engage() override;
