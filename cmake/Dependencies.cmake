@@ -8,16 +8,29 @@ find_package(nlohmann_json REQUIRED)
 find_package(tinyxml2 REQUIRED)
 find_package(urdfdom REQUIRED)
 find_package(SUNDIALS REQUIRED)
-find_package(Simbody REQUIRED)
+if(BALLBOT_NATIVE_SIMBODY)
+  find_package(Simbody REQUIRED PATHS ${BALLBOT_NATIVE_SIMBODY} NO_DEFAULT_PATH)
+else()
+  find_package(Simbody REQUIRED)
+endif()
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(LCM REQUIRED IMPORTED_TARGET lcm)
 pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 find_package(HDF5 REQUIRED COMPONENTS C)
 
-# Debian's Simbody is built without NDEBUG and its classes change layout with it, so whatever
-# includes Simbody must be compiled without NDEBUG too. Its headers warn: SYSTEM.
+# Simbody's classes change layout with NDEBUG, so whatever includes it must be compiled as it was:
+# Debian's package without NDEBUG, the one of ./bootstrap --native-simbody with it. Its headers warn: SYSTEM.
 add_library(ballbot_simbody INTERFACE)
 target_include_directories(ballbot_simbody SYSTEM INTERFACE ${Simbody_INCLUDE_DIR})
-target_compile_options(ballbot_simbody INTERFACE -UNDEBUG)
 target_link_libraries(ballbot_simbody INTERFACE ${Simbody_LIBRARIES})
+if(BALLBOT_NATIVE_SIMBODY)
+  file(READ ${BALLBOT_NATIVE_SIMBODY}/built native_flags)
+  string(STRIP "${native_flags}" native_flags)
+  set(BALLBOT_SIMBODY "${Simbody_VERSION} built with ${native_flags}")
+  target_compile_options(ballbot_simbody INTERFACE -DNDEBUG)
+  set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)  # the program finds it where it lies
+else()
+  set(BALLBOT_SIMBODY "${Simbody_VERSION} as packaged")
+  target_compile_options(ballbot_simbody INTERFACE -UNDEBUG)
+endif()

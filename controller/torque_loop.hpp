@@ -49,8 +49,13 @@ struct LoopMargins {
   double crossover = 0;      ///< highest frequency at which a wheel loop's gain is 1 [rad/s]
   double distance = 0;       ///< smallest singular value of 1 + L at the wheels, over frequency
   double distance_at = 0;    ///< where [rad/s]
-  double delay_margin = 0;   ///< delay beyond the loop's own that makes it unstable [s]; negative
-                             ///< if it is; infinite if none does
+  double delay_margin = 0;   ///< delay of all six torques beyond the loop's own that makes it unstable
+                             ///< [s]; negative if it is; infinite if none does
+
+  // At the wheel torques alone, the arm's loops closed; only of a stable loop.
+  double wheel_delay_margin = 0;  ///< the same for delay there [s]
+  double wheel_gain_low = 1;      ///< factors there between which the loop stays stable; 0 and
+  double wheel_gain_high = 1;     ///< infinity where there is no limit
 };
 
 /// How far a loop is from instability. Stability follows from the poles without the delay and

@@ -13,7 +13,7 @@ std::vector<std::pair<std::string, std::string>> buildInfo() {
           {"revision", kSourceRevision},
           {"compiler", "GCC " __VERSION__},
           {"build_type", BALLBOT_BUILD_TYPE},
-          {"simbody", BALLBOT_SIMBODY_VERSION},
+          {"simbody", BALLBOT_SIMBODY},
           {"sundials", BALLBOT_SUNDIALS_VERSION},
           {"lcm", BALLBOT_LCM_VERSION},
           {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};

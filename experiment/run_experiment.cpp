@@ -95,10 +95,11 @@ void replacePlant(StepMaster& master, PlantLink& plant) {
 
 }  // namespace
 
-void checkScenario(const Scenario& scenario) {
+std::vector<std::string> checkScenario(const Scenario& scenario) {
   EventCalendar calendar(scenario.rates.base_step);
-  checkBeside(RobotController(scenario, calendar), scenario);
+  std::vector<std::string> known_metrics = checkBeside(RobotController(scenario, calendar), scenario);
   RunMetrics metrics(scenario);
+  return known_metrics;
 }
 
 RunResult runExperiment(const Scenario& scenario, const std::string& out,

@@ -14,8 +14,9 @@ Scenario readScenario(ConfigNode tree, const std::vector<std::string>& overrides
                       std::optional<std::uint64_t> seed = std::nullopt);
 
 /// Reads all of a scenario as its run would, without running it.
+/// @return every metric that its run can have
 /// @throw InputError with file, line and column.
-void checkScenario(const Scenario& scenario);
+std::vector<std::string> checkScenario(const Scenario& scenario);
 
 /// Records nothing in the scenario's log but what every log has. The run stays the same.
 void recordNothing(Scenario& scenario);

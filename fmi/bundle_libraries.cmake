@@ -34,6 +34,11 @@ foreach(library ${found})
     if(EXISTS /usr/share/doc/${CMAKE_MATCH_1}/copyright)
       file(COPY_FILE /usr/share/doc/${CMAKE_MATCH_1}/copyright ${OUTPUT}/licenses/${CMAKE_MATCH_1}.txt)
     endif()
+  else()
+    get_filename_component(folder ${real} DIRECTORY)
+    if(EXISTS ${folder}/../copyright)  # a library of cmake/native_simbody.sh
+      file(COPY_FILE ${folder}/../copyright ${OUTPUT}/licenses/${name}.txt)
+    endif()
   endif()
 endforeach()
 

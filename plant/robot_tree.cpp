@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -42,6 +43,19 @@ class HorizontalMobilizer : public SimTK::MobilizedBody::Custom::Implementation 
   }
 };
 
+/// A library built with NDEBUG does not look, so we do.
+void requireRigidBody(const BodyInertia& b, const std::string& name) {
+  const Vector3 m = Eigen::SelfAdjointEigenSolver<Matrix3>(b.I_LLcm_L).eigenvalues();  // rising
+  const double rounding = 1e-9 * std::abs(m.sum());
+  // Written so that NaN does not pass.
+  if (b.mass >= 0 && m[0] >= -rounding && m[0] + m[1] >= m[2] - rounding) return;
+  throw InputError(fmt::format(
+      "the inertia of {} is not that of a rigid body once wheels and rotors are taken apart: its mass is "
+      "{:.4g} kg, its principal moments about its centre of mass are {:.4g}, {:.4g} and {:.4g} kg m^2; none "
+      "may be negative, and none larger than the sum of the other two",
+      name, b.mass, m[0], m[1], m[2]));
+}
+
 }  // namespace
 
 Matrix3 toEigen(const SimTK::Rotation& R) {
@@ -53,17 +67,12 @@ Matrix3 toEigen(const SimTK::Rotation& R) {
 }
 
 SimTK::Body toBody(const BodyInertia& b, const std::string& name) {
+  requireRigidBody(b, name);
   const Vector3& c = b.p_LLcm_L;
   const Matrix3 I =
       b.I_LLcm_L + b.mass * (c.squaredNorm() * Matrix3::Identity() - c * c.transpose());
-  try {
-    return SimTK::Body::Rigid(SimTK::MassProperties(
-        b.mass, toSimTK(c), SimTK::Inertia(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2))));
-  } catch (const std::exception& e) {
-    throw InputError(fmt::format(
-        "the inertia of {} is not that of a rigid body once wheels and rotors are taken apart: {}",
-        name, e.what()));
-  }
+  return SimTK::Body::Rigid(SimTK::MassProperties(
+      b.mass, toSimTK(c), SimTK::Inertia(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2))));
 }
 
 SimTK::Transform pinFrame(const Vector3& axis, const Vector3& p) {

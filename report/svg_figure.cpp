@@ -155,7 +155,13 @@ std::string axesElement(const SvgAxes& axes, double top, int index) {
   if (axes.log_y) {
     for (const double v : minorTicks(y.low, y.high)) out += lineElement(kLeft, sy(v), right, sy(v), "class='minor'");
   }
-  for (const double v : axisTicks(x.low, x.high, axes.log_x)) {
+  const std::size_t words = axes.x_words.size();
+  for (std::size_t i = 0; i < words; ++i) {
+    const double at = sx(static_cast<double>(i));
+    out += lineElement(at, top, at, bottom, "class='grid'");
+    out += textElement(at, bottom + 17 + (i % 2 == 0 ? 0 : 14), "middle", axes.x_words[i]);  // in two rows
+  }
+  for (const double v : words > 0 ? std::vector<double>() : axisTicks(x.low, x.high, axes.log_x)) {
     out += lineElement(sx(v), top, sx(v), bottom, "class='grid'");
     out += textElement(sx(v), bottom + 17, "middle", tickText(v));
   }
@@ -172,7 +178,7 @@ std::string axesElement(const SvgAxes& axes, double top, int index) {
   out += "</g>\n";
   out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#333'/>\n",
                      number(kLeft), number(top), number(kPlotWidth), number(kPlotHeight));
-  out += textElement(kLeft + kPlotWidth / 2, bottom + 37, "middle", axes.x_label, "class='label'");
+  out += textElement(kLeft + kPlotWidth / 2, bottom + (words > 0 ? 48 : 37), "middle", axes.x_label, "class='label'");
   const double middle = top + kPlotHeight / 2;
   out += textElement(18, middle, "middle", axes.y_label,
                      fmt::format("class='label' transform='rotate(-90 18 {})'", number(middle)));

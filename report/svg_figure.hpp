@@ -38,6 +38,7 @@ struct SvgAxes {
   std::vector<SvgMark> at_x = {}, at_y = {};
   std::vector<SvgSpan> shaded = {};
   std::vector<SvgBand> bands = {};
+  std::vector<std::string> x_words = {};  ///< what x = 0, 1, ... are called, instead of numbers
 };
 
 /// A figure that stands alone: axes under each other, legends beside them, nothing fetched from

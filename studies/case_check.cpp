@@ -4,11 +4,29 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "experiment/scenario_variants.hpp"
 
 namespace ballbot {
+namespace {
+
+/// What the study itself says of metrics, held against those that its runs can have.
+void checkMetricNames(const Study& study, const std::set<std::string>& known) {
+  for (const std::string& name : study.report.metrics) {
+    if (known.count(name) > 0) continue;
+    throw InputError(fmt::format("{}: report.metrics names '{}', which no run has; there are: {}",
+                                 toText(study.tree.where()), name, fmt::join(known, ", ")));
+  }
+  for (const StudyAxis& axis : study.axes) {
+    if (known.count(axis.name) == 0) continue;
+    throw InputError(fmt::format("{}: an axis is called '{}', as a metric of the runs; give it another name",
+                                 toText(study.tree.where()), axis.name));
+  }
+}
+
+}  // namespace
 
 void checkCases(const Study& study, const ConfigNode& scenario_tree,
                 const std::vector<StudyCase>& cases) {
@@ -20,10 +38,12 @@ void checkCases(const Study& study, const ConfigNode& scenario_tree,
   std::vector<std::string> order;
   std::set<std::vector<std::string>> seen;
   std::size_t wrong = 0;
+  std::set<std::string> known_metrics;
   for (const StudyCase& c : cases) {
     if (!seen.insert(c.overrides).second) continue;  // another seed changes nothing here
     try {
-      checkScenario(readScenario(scenario_tree, c.overrides, c.seed));
+      const auto metrics = checkScenario(readScenario(scenario_tree, c.overrides, c.seed));
+      known_metrics.insert(metrics.begin(), metrics.end());
     } catch (const InputError& e) {
       ++wrong;
       Trouble& trouble = troubles[e.what()];
@@ -33,7 +53,10 @@ void checkCases(const Study& study, const ConfigNode& scenario_tree,
       }
     }
   }
-  if (wrong == 0) return;
+  if (wrong == 0) {
+    checkMetricNames(study, known_metrics);
+    return;
+  }
   std::string text =
       fmt::format("{}: {} of {} configurations cannot run; nothing was started:", study.name, wrong,
                   seen.size());

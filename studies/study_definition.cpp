@@ -1,8 +1,11 @@
 #include "studies/study_definition.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,6 +18,10 @@
 
 namespace ballbot {
 namespace {
+
+// The columns of makeResultTable() beside axes and metrics.
+constexpr std::array<std::string_view, 6> kFixedColumns = {
+    "case", "seed", "outcome", "reason", "simulated_s", "trajectory_digest"};
 
 std::optional<double> asNumber(const ConfigNode& node) {
   if (node.kind() != ConfigNode::Kind::kScalar || node.quoted() || node.text().empty())
@@ -292,11 +299,16 @@ Study loadStudy(const std::string& path) {
       {{"grid", StudyDesign::kGrid}, {"latin_hypercube", StudyDesign::kLatinHypercube}});
   for (ConfigReader axis : in.list("axes")) s.axes.push_back(readAxis(axis));
   if (const ConfigNode* cases = in.raw("cases"))
-    s.axes.push_back({"case", "", {}, readOptions(*cases), {}});
+    s.axes.push_back({"variant", "", {}, readOptions(*cases), {}});
   std::set<std::string> names;
   for (const StudyAxis& axis : s.axes) {
     if (!names.insert(axis.name).second)
       throw InputError(fmt::format("{}: two axes are called '{}'", path, axis.name));
+    if (std::count(kFixedColumns.begin(), kFixedColumns.end(), axis.name) > 0) {
+      throw InputError(fmt::format(
+          "{}: an axis is called '{}', as a column that every table has; give it another name",
+          path, axis.name));
+    }
   }
   if (const ConfigNode* exclude = in.raw("exclude")) {
     for (const ConfigNode& item : exclude->items()) s.exclusions.push_back(readExclusion(item, s));

@@ -32,11 +32,27 @@ void addBand(SvgAxes& axes, const std::string& name, int colour, const std::vect
   axes.bands.push_back({colour, x, low, high});
 }
 
-SvgAxes successAxes(const Study& study, const StudyView& view, const StudyPanel& panel) {
+/// Without anything drawn yet.
+SvgAxes axesAlong(const StudyView& view, const StudyPanel& panel) {
   SvgAxes axes;
   axes.x_label = withUnit(view.along->name, view.along->unit);
+  if (view.numeric) {
+    axes.log_x = logarithmic(view);
+    return axes;
+  }
+  for (const StudyCurve& curve : panel.curves) {
+    for (const auto& point : curve.points) {
+      const auto position = static_cast<std::size_t>(point.value);
+      axes.x_words.resize(std::max(axes.x_words.size(), position + 1));
+      axes.x_words[position] = point.label;
+    }
+  }
+  return axes;
+}
+
+SvgAxes successAxes(const Study& study, const StudyView& view, const StudyPanel& panel) {
+  SvgAxes axes = axesAlong(view, panel);
   axes.y_label = "share that passes";
-  axes.log_x = logarithmic(view);
   int colour = 0;
   for (const StudyCurve& curve : panel.curves) {
     std::vector<double> x, middle, low, high;
@@ -46,36 +62,28 @@ SvgAxes successAxes(const Study& study, const StudyView& view, const StudyPanel&
       low.push_back(point.rate.low);
       high.push_back(point.rate.high);
     }
-    addBand(axes, curve.name.empty() ? "all" : curve.name, colour++ % 6, x, middle, low, high);
+    addBand(axes, curveLabel(view, curve), colour++ % 6, x, middle, low, high);
   }
   axes.at_y.push_back({fmt::format("{:g} %", 100 * study.report.rate), study.report.rate});
   return axes;
 }
 
 SvgAxes metricAxes(const StudyView& view, const StudyPanel& panel, const std::string& metric) {
-  SvgAxes axes;
-  axes.x_label = withUnit(view.along->name, view.along->unit);
+  SvgAxes axes = axesAlong(view, panel);
   axes.y_label = withUnit(metric, unitOfMetric(metric));
-  axes.log_x = logarithmic(view);
   int colour = 0;
   for (const StudyCurve& curve : panel.curves) {
     std::vector<double> x, middle, low, high;
     for (const auto& point : curve.points) {
-      std::vector<double> values;  // of runs that did not fall: others end early
-      for (const CaseResult* r : point.results) {
-        const auto it = r->metrics.find(metric);
-        if (it != r->metrics.end() && r->outcome <= CaseOutcome::kMissed)
-          values.push_back(it->second);
-      }
-      if (values.empty()) continue;
-      std::sort(values.begin(), values.end());
+      const auto spread = point.spread(metric);
+      if (!spread) continue;
       x.push_back(point.value);
-      middle.push_back(0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]));
-      low.push_back(values.front());
-      high.push_back(values.back());
+      middle.push_back(spread->middle);
+      low.push_back(spread->low);
+      high.push_back(spread->high);
     }
     if (!x.empty())
-      addBand(axes, curve.name.empty() ? "all" : curve.name, colour % 6, x, middle, low, high);
+      addBand(axes, curveLabel(view, curve), colour % 6, x, middle, low, high);
     ++colour;
   }
   return axes;

@@ -57,7 +57,7 @@ std::string heatMap(const StudyView& view, const StudyPanel& panel) {
   for (const StudyCurve& curve : panel.curves) {
     if (curve.points.empty()) continue;
     out += fmt::format("<tr><th scope=\"row\">{}</th>",
-                       escaped(curve.name.empty() ? "all" : curve.name));
+                       escaped(curveLabel(view, curve)));
     for (const auto& column : columns) {
       const auto point = std::find_if(curve.points.begin(), curve.points.end(),
                                       [&](const auto& p) { return p.label == column.second; });
@@ -157,6 +157,8 @@ std::string studyPage(const Study& study, const StudyEngine& engine,
     for (const std::string& sentence : studyComparison(study, view))
       answer += fmt::format("<li><strong>{}</strong></li>", escaped(sentence));
     for (const std::string& sentence : studyAnswer(study, view))
+      answer += fmt::format("<li>{}</li>", escaped(sentence));
+    for (const std::string& sentence : studyMetrics(study, view))
       answer += fmt::format("<li>{}</li>", escaped(sentence));
   }
   if (!answer.empty()) body += "<section><h2>What came out</h2><ul>" + answer + "</ul></section>";

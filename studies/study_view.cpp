@@ -53,6 +53,28 @@ Boundary StudyCurve::boundary(double rate) const {
   return boundaryIn(rates, rate);
 }
 
+std::optional<MetricSpread> StudyCurve::Point::spread(const std::string& metric) const {
+  std::vector<double> values;
+  for (const CaseResult* r : results) {
+    const auto it = r->metrics.find(metric);
+    if (it != r->metrics.end() && r->outcome <= CaseOutcome::kMissed) values.push_back(it->second);
+  }
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const double middle = 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+  return MetricSpread{values.front(), middle, values.back()};
+}
+
+std::string curveLabel(const StudyView& view, const StudyCurve& curve) {
+  if (!view.curves) return "all";
+  const auto& options = view.curves->options;
+  const bool numbers = std::all_of(options.begin(), options.end(),
+                                   [](const AxisOption& option) { return option.number.has_value(); });
+  if (!numbers || options.empty()) return curve.name;
+  const std::string& unit = view.curves->unit;
+  return fmt::format("{} {}{}{}", view.curves->name, curve.name, unit.empty() ? "" : " ", unit);
+}
+
 StudyView arrange(const Study& study, const std::vector<StudyCase>& cases,
                   const std::map<std::string, CaseResult>& results) {
   StudyView view;

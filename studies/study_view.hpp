@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,11 @@
 
 namespace ballbot {
 
+/// A metric over the seeds at one place.
+struct MetricSpread {
+  double low = 0, middle = 0, high = 0;  ///< least, median, largest
+};
+
 /// The cases of one option of the curve axis, in order of the axis drawn from left to right.
 struct StudyCurve {
   std::string name;
@@ -18,6 +24,9 @@ struct StudyCurve {
     double value = 0;  ///< along the axis; its position in the list where the axis has no numbers
     RateEstimate rate;
     std::vector<const CaseResult*> results;
+
+    /// Over the runs that did not fall: others end early. Empty if none of them has the metric.
+    std::optional<MetricSpread> spread(const std::string& metric) const;
   };
   std::vector<Point> points;
 
@@ -38,6 +47,9 @@ struct StudyView {
   bool numeric = false;               ///< `along` has numbers, not words
   std::vector<StudyPanel> panels;
 };
+
+/// What a curve is called: its label, with axis and unit where that is a number; "all" if there is but one.
+std::string curveLabel(const StudyView& view, const StudyCurve& curve);
 
 /// By study.report; where it leaves things open, the numeric axis with the most options is drawn
 /// along, and the axis with the fewest of the others makes the curves.

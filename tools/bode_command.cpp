@@ -33,6 +33,10 @@ nlohmann::ordered_json marginsJson(const LoopMargins& m) {
   j["smallest_distance_to_instability"] = m.distance;
   j["smallest_distance_at_Hz"] = inHertz(m.distance_at);
   if (std::isfinite(m.delay_margin)) j["delay_margin_ms"] = 1e3 * m.delay_margin;
+  if (!m.stable) return j;
+  if (std::isfinite(m.wheel_delay_margin)) j["wheel_delay_margin_ms"] = 1e3 * m.wheel_delay_margin;
+  j["wheel_gain_margin_low"] = m.wheel_gain_low;
+  if (std::isfinite(m.wheel_gain_high)) j["wheel_gain_margin_high"] = m.wheel_gain_high;
   return j;
 }
 
@@ -72,10 +76,18 @@ std::string csvText(const LoopAnalysis& a) {
   return out;
 }
 
+std::string milliseconds(double seconds) {
+  return std::isfinite(seconds) ? fmt::format("{:.1f}", 1e3 * seconds) : "none";
+}
+
 std::string marginsRow(const char* name, const LoopMargins& m) {
-  return fmt::format("  {:<22} {:>8} {:>10.1f} {:>10.2f} {:>14.2f} {:>16}\n", name, m.stable ? "yes" : "NO",
-                     m.crossover, inHertz(m.crossover), m.distance,
-                     std::isfinite(m.delay_margin) ? fmt::format("{:.1f}", 1e3 * m.delay_margin) : "none");
+  const std::string gains =
+      std::isfinite(m.wheel_gain_high) ? fmt::format("{:.2g} to {:.3g}", m.wheel_gain_low, m.wheel_gain_high)
+                                       : fmt::format("from {:.2g}", m.wheel_gain_low);
+  return fmt::format("  {:<22} {:>8} {:>10.1f} {:>10.2f} {:>14.2f} {:>10} {:>10} {:>14}\n", name,
+                     m.stable ? "yes" : "NO", m.crossover, inHertz(m.crossover), m.distance,
+                     milliseconds(m.delay_margin), m.stable ? milliseconds(m.wheel_delay_margin) : "",
+                     m.stable ? gains : "");
 }
 
 std::string tableText(const Scenario& scenario, const LoopAnalysis& a) {
@@ -100,9 +112,10 @@ std::string tableText(const Scenario& scenario, const LoopAnalysis& a) {
   out += fmt::format("\n  drive bandwidth at a wheel, blocked: {:.1f} Hz (wanted {:g}); load {:.3f} kg m^2\n",
                      inHertz(wheel.bandwidth()), a.drives.actuators.wheel.torque_bandwidth, a.inertia[0]);
   out += fmt::format("  delay of the torques in the loop: {:.2f} ms\n\n", 1e3 * a.delay);
-  out += fmt::format("  {:<22} {:>8} {:>10} {:>10} {:>14} {:>16}\n", "loop at the wheels", "stable", "crossover", "",
-                     "smallest |1+L|", "delay margin, ms");
-  out += fmt::format("  {:<22} {:>8} {:>10} {:>10}\n", "", "", "rad/s", "Hz");
+  out += fmt::format("  {:<22} {:>8} {:>10} {:>10} {:>14} {:>21} {:>14}\n", "loop at the wheels", "stable", "crossover",
+                     "", "smallest |1+L|", "delay margin, ms", "gain margins");
+  out += fmt::format("  {:<22} {:>8} {:>10} {:>10} {:>14} {:>10} {:>10} {:>14}\n", "", "", "rad/s", "Hz", "",
+                     "all six", "wheels", "wheels");
   out += marginsRow("ideal drives", a.with_ideal_drives);
   out += marginsRow("series elastic drives", a.with_drives);
   return out;

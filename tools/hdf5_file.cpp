@@ -9,8 +9,8 @@
 namespace ballbot {
 namespace {
 
-[[noreturn]] void failed(const std::string& path) {
-  throw OutputError(path + ": HDF5 could not write it. Is the disk full?");
+[[noreturn]] void failed(const std::string& what) {
+  throw OutputError(what + ": HDF5 could not write it. Is the disk full?");
 }
 
 hid_t createFile(const std::string& path) {
@@ -48,18 +48,20 @@ struct Hdf5File::Impl {
 
   void write(const std::string& name, hid_t stored, hid_t given, hsize_t size, const void* data,
              const std::string& unit) {
-    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, path);
+    const std::string where = path + ", '" + name + "'";
+    if (H5Lexists(place(), name.c_str(), H5P_DEFAULT) > 0) throw OutputError(where + ": is there already");
+    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, where);
     const Handle dataset(
         H5Dcreate2(place(), name.c_str(), stored, space, H5P_DEFAULT, untimed, H5P_DEFAULT),
-        H5Dclose, path);
-    if (H5Dwrite(dataset, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) failed(path);
+        H5Dclose, where);
+    if (H5Dwrite(dataset, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) failed(where);
     if (unit.empty()) return;
-    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, path);
+    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, where);
     H5Tset_size(type, unit.size());
-    const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, path);
+    const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, where);
     const Handle attribute(H5Acreate2(dataset, "unit", type, scalar, H5P_DEFAULT, H5P_DEFAULT),
-                           H5Aclose, path);
-    if (H5Awrite(attribute, type, unit.data()) < 0) failed(path);
+                           H5Aclose, where);
+    if (H5Awrite(attribute, type, unit.data()) < 0) failed(where);
   }
 
   std::string path;

@@ -168,6 +168,7 @@ std::string studyText(const Study& study, const StudyEngine& engine, const Study
     const StudyView view = arrange(study, engine.cases(), engine.results());
     for (const std::string& sentence : studyAnswer(study, view)) out += "  " + sentence + "\n";
     for (const std::string& sentence : studyComparison(study, view)) out += "  " + sentence + "\n";
+    for (const std::string& sentence : studyMetrics(study, view)) out += "  " + sentence + "\n";
   }
   for (const PlaceBoundary& b : findings.boundaries) {
     out += fmt::format("  {}: {}\n", placeText(study, b),

@@ -112,6 +112,37 @@ TEST(LoopMargins, AtTheDelayMarginALocusPassesThroughMinusOne) {
   EXPECT_TRUE(marginsOf(law, loop.dynamics, drives(40), delay + 0.99 * margins.delay_margin).stable);
 }
 
+TEST(LoopMargins, AtTheWheelsMarginsALocusPassesThroughMinusOne) {
+  const Loop loop;
+  const ShapedLqr law = loop.law({100, 200});
+  const LoopMargins margins = marginsOf(law, loop.dynamics, drives(20), 2e-3);
+  ASSERT_TRUE(margins.stable);
+  ASSERT_TRUE(std::isfinite(margins.wheel_delay_margin));
+  ASSERT_TRUE(std::isfinite(margins.wheel_gain_high));
+  EXPECT_GT(margins.wheel_gain_low, 0);  // the robot needs its feedback
+  EXPECT_LT(margins.wheel_gain_low, 1);
+  EXPECT_GT(margins.wheel_gain_high, 1);
+  const TorqueLoop L(law, loop.dynamics, drives(20), 2e-3);
+  const auto closest = [&](double gain, double delay) {
+    double least = 1e9;
+    for (double omega = 0.5; omega < 3000; omega *= 1.002) {
+      const std::complex<double> inserted = gain * std::exp(std::complex<double>(0, -omega * delay));
+      least = std::min(least, std::abs((TorqueLoop::Wheels::Identity() + inserted * L.wheels(omega)).determinant()));
+    }
+    return least;
+  };
+  const double undisturbed = closest(1, 0);
+  EXPECT_LT(closest(1, margins.wheel_delay_margin), 0.02 * undisturbed);
+  EXPECT_LT(closest(margins.wheel_gain_high, 0), 0.02 * undisturbed);
+  EXPECT_LT(closest(margins.wheel_gain_low, 0), 0.02 * undisturbed);
+  // Nothing touches -1 before.
+  for (const double share : {0.25, 0.5, 0.75}) {
+    EXPECT_GT(closest(1, share * margins.wheel_delay_margin), 0.02 * undisturbed);
+    EXPECT_GT(closest(std::pow(margins.wheel_gain_high, share), 0), 0.02 * undisturbed);
+    EXPECT_GT(closest(std::pow(margins.wheel_gain_low, share), 0), 0.02 * undisturbed);
+  }
+}
+
 TEST(LoopMargins, CrossoverIsWhereTheGainIsOne) {
   const Loop loop;
   const ShapedLqr law = loop.law(kNone);

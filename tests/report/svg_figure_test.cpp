@@ -70,6 +70,15 @@ TEST(SvgFigure, NamesAxesLinesAndMarksAndEscapesThem) {
   EXPECT_THAT(svg, HasSubstr("<title>Title</title>"));
 }
 
+TEST(SvgFigure, WritesWordsWhereAnAxisHasThemInsteadOfNumbers) {
+  SvgAxes axes = line({0, 1}, {0.25, 0.75});
+  axes.x_words = {"ideal", "+ springs"};
+  const std::string svg = svgFigure("", {axes});
+  EXPECT_THAT(svg, HasSubstr(">ideal<"));
+  EXPECT_THAT(svg, HasSubstr(">+ springs<"));
+  EXPECT_THAT(svg, Not(HasSubstr(">1</text>"))) << "a number along x";
+}
+
 TEST(SvgFigure, FetchesNothing) {
   const std::string svg = svgFigure("Title", {line({0, 1}, {0, 1})});
   EXPECT_THAT(svg, Not(HasSubstr("href")));

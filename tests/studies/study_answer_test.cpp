@@ -75,6 +75,56 @@ TEST_F(StudyAnswer, TurnsRoundWhereLessOfItPasses) {
               HasSubstr("passes with more delay in 1 of 1 comparisons, needs less in 0"));
 }
 
+TEST_F(StudyAnswer, ComparesNothingWhereNothingCrossesTheLevel) {
+  add("", {4, 4, 4, 4}, {4, 4, 4, 4});
+  EXPECT_THAT(studyComparison(study_, view_), IsEmpty());
+}
+
+/// Runs whose tilt is one of `tilts` each.
+std::vector<CaseResult> runsWithTilt(const std::vector<double>& tilts) {
+  std::vector<CaseResult> out;
+  for (const double tilt : tilts) {
+    out.push_back({});
+    out.back().outcome = CaseOutcome::kPassed;
+    out.back().metrics["largest_tilt_deg"] = tilt;
+  }
+  return out;
+}
+
+TEST_F(StudyAnswer, NamesTheStepThatChangesAMetricByMoreThanTheSeedsScatter) {
+  study_.report.metrics = {"largest_tilt_deg"};
+  view_.numeric = false;
+  view_.curves = nullptr;
+  const std::vector<CaseResult> ideal = runsWithTilt({5, 6, 7}), springs = runsWithTilt({6, 7, 8}),
+                                noise = runsWithTilt({9, 10, 11});
+  StudyCurve all;
+  for (const auto& [label, runs] : {std::pair("ideal", &ideal), {"springs", &springs}, {"noise", &noise}}) {
+    all.points.push_back({label, 0, {}, {}});
+    for (const CaseResult& r : *runs) all.points.back().results.push_back(&r);
+  }
+  view_.panels = {{"", {all}}};
+  EXPECT_THAT(studyMetrics(study_, view_),
+              ElementsAre("largest_tilt_deg [deg]: median ideal 6, springs 7, noise 10; changed by more "
+                          "than the seeds scatter at 'noise' (7 to 10)."));
+}
+
+TEST_F(StudyAnswer, SaysWhereAMetricIsLeastAndLargestAmongRunsThatStayedUp) {
+  study_.report.metrics = {"largest_tilt_deg"};
+  add("delay 10 ms", {4, 4, 4, 4}, {4, 4, 4, 4});
+  const std::vector<CaseResult> few = runsWithTilt({2, 3, 4}), many = runsWithTilt({8, 9});
+  std::vector<CaseResult> fallen = runsWithTilt({90});
+  fallen.front().outcome = CaseOutcome::kFell;
+  auto& curves = view_.panels.front().curves;
+  for (const CaseResult& r : few) curves[0].points[1].results.push_back(&r);
+  for (const CaseResult& r : many) curves[1].points[2].results.push_back(&r);
+  curves[1].points[3].results.push_back(&fallen.front());
+  curves[0].points[1].label = "10";
+  curves[1].points[2].label = "20";
+  EXPECT_THAT(studyMetrics(study_, view_),
+              ElementsAre("largest_tilt_deg [deg]: median from 3 (delay 10 ms, shaping none, bandwidth 10 Hz) "
+                          "to 8.5 (delay 10 ms, shaping matched, bandwidth 20 Hz)."));
+}
+
 TEST_F(StudyAnswer, HasNothingToCompareWithoutCurvesOrNumbers) {
   add("", {0, 0, 4, 4}, {4, 4, 4, 4});
   view_.numeric = false;

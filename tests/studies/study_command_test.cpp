@@ -121,6 +121,47 @@ TEST(Study, WhatIsWrongWithAnyCaseIsSaidBeforeOneRuns) {
   EXPECT_EQ(runBallbot({"study", "no_such.yaml"}).exit_code, 2);
 }
 
+/// A study of the balancing robot, with `more` lines.
+std::string writeStudy(const std::string& path, const std::string& more) {
+  std::ofstream(path) << "name: tried\nscenario: " BALLBOT_SOURCE_DIR "/configs/scenarios/balance.yaml\n"
+                      << more;
+  return path;
+}
+
+TEST(Study, MetricsThatNoRunHasAreNamedBeforeOneRuns) {
+  const TemporaryFolder folder;
+  const std::string typo = writeStudy(folder / "typo.yaml", "report: {metrics: [largest_tlit_deg]}\n");
+  Finished run = runBallbot({"study", typo, "--out", folder / "study", "--quiet"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("report.metrics names 'largest_tlit_deg', which no run has; there are: "));
+  EXPECT_THAT(run.err, HasSubstr("largest_tilt_deg"));
+  const std::string clash = writeStudy(
+      folder / "clash.yaml", "axes: [{name: plans, paths: duration_s, values: [1, 2]}]\n");
+  run = runBallbot({"study", clash, "--out", folder / "study", "--quiet"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("an axis is called 'plans', as a metric of the runs"));
+  EXPECT_FALSE(fs::exists(folder / "study"));
+}
+
+class ShippedStudy : public ::testing::TestWithParam<const char*> {};
+
+// In a few control steps each: all of a study but the length of its runs.
+TEST_P(ShippedStudy, RunsToItsEndAndLeavesAllItsFiles) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "study";
+  const Finished run = runBallbot({"study", studyPath(GetParam()), "--quiet", "--json", "--set",
+                                   "duration_s=0.02", "--set", "environment={}", "--out", out});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  for (const char* file : {"table.csv", "table.h5", "summary.json", "report.html", "commands.sh"}) {
+    EXPECT_TRUE(fs::exists(out + "/" + file)) << file << " is missing";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedStudy,
+                         ::testing::Values("delay_margin", "fidelity_ladder", "gain_margin", "mpc_rate",
+                                           "noise", "sea_bandwidth", "sea_stiffness_arm", "smoke"),
+                         [](const auto& test) { return std::string(test.param); });
+
 TEST(Study, ResumingAsksForTheSameStudy) {
   const TemporaryFolder folder;
   const auto first = summaryOf(brief({studyPath("smoke"), "--out", folder / "study"}));

@@ -45,7 +45,7 @@ TEST(StudyDefinition, SeedsAreACountOrAList) {
 TEST(StudyDefinition, AListOfCasesIsAnAxis) {
   const Study study = studyOf("cases: [{label: a, set: {x: 1}}, {label: b, set: {x: 2, y: 3}}]\n");
   ASSERT_EQ(study.axes.size(), 1u);
-  EXPECT_EQ(study.axes[0].name, "case");
+  EXPECT_EQ(study.axes[0].name, "variant");
   EXPECT_EQ(study.axes[0].options[1].settings[1].first, "y");
 }
 
@@ -68,6 +68,8 @@ TEST(StudyDefinition, SaysWhatIsWrongAndWhere) {
               HasSubstr("a grid needs 'values'"));
   EXPECT_THAT(refusal("axes: [{name: a, paths: x, values: [1]}]\nexclude: [{a: 2}]\n"),
               HasSubstr("axis 'a' has no '2'"));
+  EXPECT_THAT(refusal("axes: [{name: seed, paths: x, values: [1]}]\n"),
+              HasSubstr("an axis is called 'seed', as a column that every table has"));
   EXPECT_THAT(refusal("report: {along: b}\n"), HasSubstr("there is no axis 'b'"));
   EXPECT_THAT(refusal("axes: [{name: a, paths: [{path: x, times: 2}], values: [word]}]\n"),
               HasSubstr("'word' is not a number, so 'x' cannot be computed from it"));

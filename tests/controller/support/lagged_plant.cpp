@@ -27,10 +27,10 @@ StateVector LaggedPlant::derivative(const StateVector& x, const Vector3& push_W)
   if (!push_W.isZero(0)) {
     const Matrix3 R_WB = rotationFromYawPitchRoll(x[kYaw], x[kPitch], x[kRoll]);
     const Vector3 p_KP_B(0, 0, 0.35);
-    VelocityVector force = VelocityVector::Zero();
-    force.head<2>() = push_W.head<2>();
-    force.segment<3>(kOmegaX) = p_KP_B.cross(R_WB.transpose() * push_W);
-    dx.tail<kVelocityDim>() += dynamics_.massMatrix(x.head<kPositionDim>()).llt().solve(force);
+    VelocityVector push = VelocityVector::Zero();
+    push.head<2>() = push_W.head<2>();
+    push.segment<3>(kOmegaX) = p_KP_B.cross(R_WB.transpose() * push_W);
+    dx.tail<kVelocityDim>() += dynamics_.massMatrix(x.head<kPositionDim>()).llt().solve(push);
   }
   return dx;
 }
