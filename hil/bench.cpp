@@ -23,8 +23,7 @@ bool allFinite(const DriveArray& values) noexcept {
 Bench::Bench(const BenchConfig& config)
     : config_(config),
       master_(config),
-      safety_(timingOf(config.safety)),
-      tilt_(config.cycleSeconds()) {}
+      safety_(timingOf(config.safety)) {}
 
 // Of several faults in one cycle the gravest counts.
 void Bench::notice(BenchFault fault, int drive, double value, double limit) noexcept {
@@ -33,11 +32,11 @@ void Bench::notice(BenchFault fault, int drive, double value, double limit) noex
   }
 }
 
-void Bench::observe() noexcept {
+void Bench::observe(int skipped_cycles) noexcept {
   seen_ = {};
   checkNetwork();
   checkDrives();
-  checkMotion();
+  checkMotion((1 + skipped_cycles) * config_.cycleSeconds());
 }
 
 // Without the IMU the drives can still brake the robot; without a drive they cannot.
@@ -72,14 +71,14 @@ void Bench::checkDrives() noexcept {
   }
 }
 
-void Bench::checkMotion() noexcept {
+/// @param dt  since the cycle before [s]
+void Bench::checkMotion(double dt) noexcept {
   const BenchSample& s = master_.sample();
   if (!allFinite(s.joint_angle) || !allFinite(s.joint_velocity) || !allFinite(s.joint_torque)) {
     notice(BenchFault::kSensorNotFinite);
   }
-  if (s.imu_cycle == master_.cycle()) tilt_.update(s.accel, s.gyro);
+  if (s.imu_cycle == master_.cycle()) tilt_.update(dt, s.accel, s.gyro);
   const bool torque_on = safety_.state() == SafetyState::kEnabled;
-  const double dt = config_.cycleSeconds();
   for (int i = 0; i < kDriveCount; ++i) {
     const auto n = static_cast<std::size_t>(i);
     const DriveLimits& limits = config_.drives[n].limits;
@@ -87,7 +86,7 @@ void Bench::checkMotion() noexcept {
     const double step = s.joint_angle[n] - last_angle_[n];
     if (has_last_ && fresh && std::isfinite(step)) {
       mismatch_[n] += step - dt * s.joint_velocity[n];
-      mismatch_[n] *= 1 - dt / kMismatchMemory;
+      mismatch_[n] *= std::max(0.0, 1 - dt / kMismatchMemory);
     }
     // The first sample after missing ones has come further than one period's velocity says.
     last_angle_[n] = fresh ? s.joint_angle[n] : std::numeric_limits<double>::quiet_NaN();

@@ -49,7 +49,8 @@ class Bench {
   };
 
   /// After the frames of a cycle came: judges what was measured.
-  void observe() noexcept;
+  /// @param skipped_cycles  that a late loop left out since the one before
+  void observe(int skipped_cycles = 0) noexcept;
   /// Decides and fills the master's outbox.
   void actuate(const Wishes& wishes) noexcept;
 
@@ -67,7 +68,7 @@ class Bench {
   void notice(BenchFault fault, int drive = -1, double value = 0, double limit = 0) noexcept;
   void checkNetwork() noexcept;
   void checkDrives() noexcept;
-  void checkMotion() noexcept;
+  void checkMotion(double dt) noexcept;
   void checkCommand(const Wishes& wishes) noexcept;
   void follow(const BenchCommand& command) noexcept;
   void damp() noexcept;

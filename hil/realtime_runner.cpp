@@ -127,7 +127,7 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
   io_.collect(std::chrono::steady_clock::time_point(std::chrono::nanoseconds(deadline_ns) +
                                                     config.realtime.collect));
   master.endCycle();
-  bench_.observe();
+  bench_.observe(skipped_now_);
 
   const bool torque = bench_.safety().state() == SafetyState::kEnabled;
   if (!torque) session_cycle_ = -1;

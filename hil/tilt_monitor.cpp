@@ -14,7 +14,7 @@ void normalize(std::array<double, 3>& v) noexcept {
 
 }  // namespace
 
-void TiltMonitor::update(const std::array<double, 3>& accel,
+void TiltMonitor::update(double dt, const std::array<double, 3>& accel,
                          const std::array<double, 3>& gyro) noexcept {
   std::array<double, 3> measured = accel;
   normalize(measured);
@@ -26,10 +26,11 @@ void TiltMonitor::update(const std::array<double, 3>& accel,
   // The vertical is fixed in the world: d(up)/dt = up x w in the base's axes.
   const std::array<double, 3> u = up_;
   const std::array<double, 3>& w = gyro;
-  const std::array<double, 3> turned = {u[0] + dt_ * (u[1] * w[2] - u[2] * w[1]),
-                                        u[1] + dt_ * (u[2] * w[0] - u[0] * w[2]),
-                                        u[2] + dt_ * (u[0] * w[1] - u[1] * w[0])};
-  for (std::size_t i = 0; i < 3; ++i) up_[i] = turned[i] + share_ * (measured[i] - turned[i]);
+  const std::array<double, 3> turned = {u[0] + dt * (u[1] * w[2] - u[2] * w[1]),
+                                        u[1] + dt * (u[2] * w[0] - u[0] * w[2]),
+                                        u[2] + dt * (u[0] * w[1] - u[1] * w[0])};
+  const double share = std::min(1.0, dt / time_constant_);
+  for (std::size_t i = 0; i < 3; ++i) up_[i] = turned[i] + share * (measured[i] - turned[i]);
   normalize(up_);
 }
 

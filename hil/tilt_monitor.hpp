@@ -8,18 +8,16 @@ namespace ballbot {
 /// gyro and drawn slowly to what the accelerometer says. Independent of the controller's estimator.
 class TiltMonitor {
  public:
-  /// @param dt        between two samples [s]
   /// @param time_constant  of the accelerometer's pull [s]
-  explicit TiltMonitor(double dt, double time_constant = 1.0)
-      : dt_(dt), share_(dt / time_constant) {}
+  explicit TiltMonitor(double time_constant = 1.0) : time_constant_(time_constant) {}
 
-  /// One IMU sample: specific force and angular velocity in B.
-  void update(const std::array<double, 3>& accel, const std::array<double, 3>& gyro) noexcept;
+  /// One IMU sample: specific force and angular velocity in B, `dt` after the one before [s].
+  void update(double dt, const std::array<double, 3>& accel, const std::array<double, 3>& gyro) noexcept;
   /// Angle between the base's axis and the vertical [rad].
   double tilt() const noexcept;
 
  private:
-  double dt_, share_;
+  double time_constant_;
   bool started_ = false;
   std::array<double, 3> up_{0, 0, 1};  ///< the vertical in B, unit length
 };

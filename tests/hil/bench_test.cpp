@@ -111,6 +111,25 @@ TEST(Bench, ResetsFaultsFromBeforeOnceWhenPreparing) {
   EXPECT_EQ(f.bench.safety().state(), SafetyState::kReady) << f.bench.faultText();
 }
 
+TEST(Bench, TakesSkippedPeriodsForTimeAndNotForAJumpOfTheEncoder) {
+  BenchFixture f;
+  ASSERT_TRUE(f.engage());
+  BenchCommand command;
+  command.torque[0] = 2;
+  f.wishes.command = &command;
+  for (int i = 0; i < 400 && f.bench.master().sample().joint_velocity[0] < 4; ++i) f.cycle();
+  const double velocity = f.bench.master().sample().joint_velocity[0];
+  ASSERT_GT(velocity, 3.9);
+  command.torque[0] = 0;
+  // Each time the joint goes three periods further than one period's velocity says.
+  const double missed = 3 * f.config.cycleSeconds() * 0.5 * velocity;
+  ASSERT_GT(10 * missed, 2 * f.config.safety.encoder_mismatch);
+  for (int i = 0; i < 10; ++i) {
+    f.cycle(3);
+    ASSERT_EQ(f.bench.safety().state(), SafetyState::kEnabled) << i << ": " << f.bench.faultText();
+  }
+}
+
 struct WrongSetup {
   const char* extra;
   const char* text;

@@ -46,13 +46,17 @@ class BenchFixture {
     if (m.configured()) m.start();
     return m.configured() || m.link(0).phase() == NodeLink::Phase::kRunning;
   }
-  /// One cycle.
-  void cycle() {
+  /// One cycle, after `skipped` that the drives saw and the bench did not.
+  void cycle(int skipped = 0) {
+    for (int i = 0; i < skipped * emulator_config.bus_count; ++i) {
+      drives.onFrame(i % emulator_config.bus_count, CanFrame{0x080, false, false, 0, {}});
+    }
+    if (skipped > 0) io->collect(std::chrono::steady_clock::now());  // answers that came too late
     bench.master().beginCycle();
     io->send();
     io->collect(std::chrono::steady_clock::now());
     bench.master().endCycle();
-    bench.observe();
+    bench.observe(skipped);
     wishes.bus_down = !io->allUp();
     bench.actuate(wishes);
     io->send();
