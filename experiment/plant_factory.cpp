@@ -1,6 +1,7 @@
 #include "experiment/plant_link.hpp"
 #include "fmi/coupled_plant.hpp"
 #include "plant/plant_config.hpp"
+#include "plant/simbody_library.hpp"
 
 namespace ballbot {
 
@@ -9,6 +10,7 @@ std::unique_ptr<Participant> makePlant(const Scenario& scenario) {
 }
 
 void checkPlant(const Scenario& scenario) {
+  requireSimbodyKind(loadedSimbodyKind());
   readPlantConfig(scenario.tree);
   if (scenario.tree.find("fmus")) planCoupling(scenario.tree);
 }
