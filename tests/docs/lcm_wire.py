@@ -164,6 +164,9 @@ class Multicast:
         membership = struct.pack("4s4s", socket.inet_aton(group), socket.inet_aton("0.0.0.0"))
         self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
 
+    def close(self):
+        self.socket.close()
+
     def send(self, channel, data):
         self.socket.sendto(struct.pack(">II", MAGIC, self.count) + channel.encode() + b"\0" + data, self.address)
         self.count += 1

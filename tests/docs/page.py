@@ -7,7 +7,7 @@ from pathlib import Path
 
 SHELL = "sh"
 OURS = re.compile(r"(ballbot|ballbot_benchmarks|build/release/bin/\S+|\./bootstrap)( |$)")
-MARK = re.compile(r"<!-- test (skip|first|add|together|stop)\b ?(.*) -->$")
+MARK = re.compile(r"<!-- test (skip|first|add|together|stop|exits)\b ?(.*) -->$")
 
 
 class PageError(Exception):
@@ -100,7 +100,7 @@ def readMark(place, verb, rest):
     """-> (verb, beginning of the commands it is for, rest), of e.g. `skip "ballbot hil": hardware`."""
     match = re.match(r'(?:"([^"]*)")?:? ?(.*)$', rest)
     beginning, rest = match[1] or "", match[2]
-    if verb in ("skip", "first", "add", "stop") and not rest:
+    if verb in ("skip", "first", "add", "stop", "exits") and not rest:
         raise PageError(f"{place}: the mark '{verb}' says nothing after its colon")
     return verb, beginning, rest
 

@@ -96,7 +96,9 @@ class Protocol(unittest.TestCase):
                                  stderr=subprocess.PIPE, text=True)
         try:
             config_digest = xxh3(self.manifest["config_digest"].encode())
-            self.step(Master(self.wire, port, channel, config_digest))
+            master = Master(self.wire, port, channel, config_digest)
+            self.addCleanup(master.network.close)
+            self.step(master)
             self.assertEqual(plant.wait(20), 0)
         finally:
             if plant.poll() is None:

@@ -59,16 +59,16 @@ def stop(process, number=signal.SIGINT):
     os.killpg(process.pid, number)
 
 
-def finish(process, place, command, output=""):
-    """Waits for the end; anything but exit code 0 is an error of the page."""
+def finish(process, place, command, output="", expected=0):
+    """Waits for the end; another exit code than the page says is an error of the page."""
     try:
         output += process.communicate(timeout=PATIENCE_S)[0]
     except subprocess.TimeoutExpired:
         stop(process, signal.SIGKILL)
         output += process.communicate()[0]
         raise PageError(f"{place}: `{command}` did not end within {PATIENCE_S} s:\n{output}")
-    if process.returncode != 0:
-        raise PageError(f"{place}: `{command}` ends with exit code {process.returncode}:\n{output}")
+    if process.returncode != expected:
+        raise PageError(f"{place}: `{command}` ends with exit code {process.returncode}, not {expected}:\n{output}")
 
 
 def serveUntil(process, text, place, command):
@@ -130,7 +130,7 @@ def runBlock(shell, block):
         if text := block.mark("stop", command):
             serveUntil(process, text, block.place, command)
         else:
-            finish(process, block.place, command)
+            finish(process, block.place, command, expected=int(block.mark("exits", command) or 0))
 
 
 def main():

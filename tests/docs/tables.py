@@ -1,13 +1,13 @@
 """Tables of the pages, from what the program prints. Used by the pages' generated blocks.
 
     tables.py messages                  types of messages: fingerprint, bytes
-    tables.py rejected SUMMARY          what the estimator rejected in a run, counted
-    tables.py estimation NAME=SUMMARY...  errors of the estimate, one run a row
+    tables.py rejected SCENARIO         what the estimator rejected in a run of it, counted
+    tables.py estimation SCENARIO...    errors of the estimate, one run a row
     tables.py faults                    the table of `ballbot hil --faults --json`, read from stdin
 """
 import json
+import subprocess
 import sys
-from pathlib import Path
 
 from lcm_wire import Wire
 
@@ -45,18 +45,20 @@ def messages():
     print(f"\n`message_digest` of these definitions: `{wire.messageDigest():016x}`")
 
 
-def summary(path):
-    return json.loads(Path(path).read_text())
+def summary(scenario):
+    run = subprocess.run(["ballbot", "run", f"configs/scenarios/{scenario}.yaml", "--in-process", "--no-report",
+                          "--quiet", "--json"], stdout=subprocess.PIPE, text=True, check=True)
+    return json.loads(run.stdout)
 
 
-def rejected(path):
-    table(["counted as", "times"], [[f"`{k}`", str(v)] for k, v in summary(path)["rejected"].items()])
+def rejected(scenario):
+    table(["counted as", "times"], [[f"`{k}`", str(v)] for k, v in summary(scenario)["rejected"].items()])
 
 
-def estimation(*runs):
+def estimation(*scenarios):
     rows = []
-    for name, path in (run.split("=") for run in runs):
-        whole = summary(path)
+    for name in scenarios:
+        whole = summary(name)
         m = whole["metrics"]
         rows.append([f"`{name}`", f"{m['tilt_rms_deg']:.2g} degrees", f"{1e3 * m['velocity_rms_m_per_s']:.2g} mm/s",
                      f"{m['position_drift_percent']:.1g} %", f"{abs(m['yaw_error_deg']):.1g} degrees",
@@ -65,7 +67,10 @@ def estimation(*runs):
 
 
 def faults():
-    print(json.dumps(json.load(sys.stdin)["rows"][:2], indent=1))
+    rows = json.load(sys.stdin)["rows"]
+    table(["fault", "reaction", "bound, cycles", "took"],
+          [[r["name"], r["expected"], str(r["bound_cycles"]), str(r["measured_cycles"])] for r in rows])
+    print(f"\n{len(rows)} faults, of which {sum(r['held'] for r in rows)} hold.")
 
 
 if __name__ == "__main__":
