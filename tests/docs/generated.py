@@ -31,7 +31,10 @@ def compared(lines):
 
 
 def content(old, output):
-    """The new lines of a block; where the old ones stood in a fence, the new ones do."""
+    """The new lines of a block; where the old ones stood in a fence, the new ones do. A line that is
+    new in what the machine decides alone stays as it was."""
+    as_before = dict(zip(compared(old), old))
+    output = [as_before.get(key, line) for key, line in zip(compared(output), output)]
     if old and old[0].startswith("```"):
         return [old[0], *output, "```"]
     return output
@@ -44,7 +47,7 @@ def produce(block, arguments, folder):
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
         sys.exit(f"{block.place}: `{block.command}` ends with exit code {done.returncode}:\n{done.stderr}")
-    return done.stdout.rstrip("\n").split("\n")
+    return [line.rstrip() for line in done.stdout.rstrip("\n").split("\n")]
 
 
 def treat(name, arguments):

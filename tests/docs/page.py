@@ -70,6 +70,8 @@ class Page:
                 raise PageError(f"{place}: a command outside a block of commands. Begin the block with ```{SHELL}")
             elif fence is None:
                 opened = self._outside(place, number, line, marks, opened)
+        if marks:
+            raise PageError(f"{self.path}: a mark for tests at the end stands before no block of commands")
         if opened:
             raise PageError(f"{opened.place}: a generated block without <!-- end -->")
 

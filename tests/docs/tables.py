@@ -52,7 +52,7 @@ def summary(scenario):
 
 
 def rejected(scenario):
-    table(["counted as", "times"], [[f"`{k}`", str(v)] for k, v in summary(scenario)["rejected"].items()])
+    table(["counted as", "times"], [[f"`{k}`", f"{v:.0f}"] for k, v in summary(scenario)["rejected"].items()])
 
 
 def estimation(*scenarios):
@@ -62,7 +62,7 @@ def estimation(*scenarios):
         m = whole["metrics"]
         rows.append([f"`{name}`", f"{m['tilt_rms_deg']:.2g} degrees", f"{1e3 * m['velocity_rms_m_per_s']:.2g} mm/s",
                      f"{m['position_drift_percent']:.1g} %", f"{abs(m['yaw_error_deg']):.1g} degrees",
-                     ", ".join(f"`{k}` {v}" for k, v in whole.get("rejected", {}).items()) or "nothing"])
+                     ", ".join(f"`{k}` {v:.0f}" for k, v in whole.get("rejected", {}).items()) or "nothing"])
     table(["scenario", "tilt rms", "velocity rms", "drift", "yaw at the end", "rejected"], rows)
 
 
