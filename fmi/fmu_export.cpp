@@ -111,7 +111,8 @@ void exportFmu(const ConfigNode& scenario, const std::string& urdf_path, const F
   const std::string module = std::string(kModelIdentifier) + ".so";
   if (!fs::exists(libraries / "binaries" / module)) {
     throw InputError(fmt::format(
-        "{}: there is no {} for FMI {} here. Is this program installed as it was built?",
+        "{}: there is no {} for FMI {} here. In the folder where this program was built, try: "
+        "./bootstrap build; an installed one must be installed whole",
         libraries.string(), module, how.fmi_version));
   }
   const ConfigNode tree = plantScenario(scenario);
