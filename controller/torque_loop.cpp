@@ -53,11 +53,11 @@ void addDrives(const LoopDrives& drives, const SelectionMatrix& S, Eigen::Matrix
   B = inputs;
 }
 
+// Of any size on purpose: the eigenvalue solver for each fixed size costs the compiler half a minute.
+Eigen::VectorXcd lociOf(const Eigen::MatrixXcd& L) { return L.eigenvalues(); }
+
 /// Gain of the largest locus (eigenvalue) of a loop.
-template <typename Matrix>
-double largestGain(const Matrix& L) {
-  return L.eigenvalues().cwiseAbs().maxCoeff();
-}
+double largestGain(const Eigen::MatrixXcd& L) { return lociOf(L).cwiseAbs().maxCoeff(); }
 
 /// Frequency between `low` and `high` at which `above_one` changes.
 template <typename Function>
@@ -71,9 +71,8 @@ double bisect(double low, double high, const Function& above_one) {
 }
 
 /// Gains of all loci, rising.
-template <typename Matrix>
-auto locusGains(const Matrix& L) {
-  Eigen::Matrix<double, Matrix::RowsAtCompileTime, 1> gains = L.eigenvalues().cwiseAbs();
+Eigen::VectorXd locusGains(const Eigen::MatrixXcd& L) {
+  Eigen::VectorXd gains = lociOf(L).cwiseAbs();
   std::sort(gains.data(), gains.data() + gains.size());
   return gains;
 }
@@ -82,14 +81,14 @@ auto locusGains(const Matrix& L) {
 template <typename Loop>
 double smallestCriticalDelay(const Loop& loop, const std::vector<double>& omega) {
   double smallest = kInf;
-  decltype(locusGains(loop(0.0))) before;
+  Eigen::VectorXd before;
   for (std::size_t n = 0; n < omega.size(); ++n) {
-    const auto now = locusGains(loop(omega[n]));
+    const Eigen::VectorXd now = locusGains(loop(omega[n]));
     for (int i = 0; n > 0 && i < now.size(); ++i) {
       if ((now[i] > 1) == (before[i] > 1)) continue;
       const double w =
           bisect(omega[n - 1], omega[n], [&](double at) { return locusGains(loop(at))[i] > 1; });
-      const auto loci = loop(w).eigenvalues().eval();
+      const Eigen::VectorXcd loci = lociOf(loop(w));
       for (int j = 0; j < loci.size(); ++j) {
         if (std::abs(std::abs(loci[j]) - 1) > 1e-6) continue;
         double lag = std::arg(loci[j]) + kPi;  // to -1, clockwise
@@ -126,9 +125,9 @@ WheelLoci inOrderOf(const WheelLoci& before, const WheelLoci& loci) {
 void findGainMargins(const TorqueLoop& loop, const std::vector<double>& omega, LoopMargins& out) {
   out.wheel_gain_low = 0;
   out.wheel_gain_high = kInf;
-  WheelLoci before = loop.wheels(omega.front()).eigenvalues();
+  WheelLoci before = lociOf(loop.wheels(omega.front()));
   for (std::size_t n = 1; n < omega.size(); ++n) {
-    const WheelLoci now = inOrderOf(before, loop.wheels(omega[n]).eigenvalues());
+    const WheelLoci now = inOrderOf(before, lociOf(loop.wheels(omega[n])));
     for (int i = 0; i < kWheelCount; ++i) {
       const Complex a = before[i], b = now[i];
       if ((a.imag() > 0) == (b.imag() > 0)) continue;

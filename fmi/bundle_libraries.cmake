@@ -42,6 +42,16 @@ foreach(library ${found})
   endif()
 endforeach()
 
+# Ours, and that of the headers compiled in: no library stands for them.
+foreach(name LICENSE NOTICE)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/../${name} ${OUTPUT}/licenses/ballbot-${name}.txt COPYONLY)
+endforeach()
+foreach(package libeigen3-dev librandom123-dev)
+  if(EXISTS /usr/share/doc/${package}/copyright)
+    file(COPY_FILE /usr/share/doc/${package}/copyright ${OUTPUT}/licenses/${package}.txt)
+  endif()
+endforeach()
+
 set(own)
 foreach(module ${MODULES})
   get_filename_component(name ${module} NAME)

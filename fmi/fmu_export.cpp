@@ -111,7 +111,8 @@ void exportFmu(const ConfigNode& scenario, const std::string& urdf_path, const F
   const std::string module = std::string(kModelIdentifier) + ".so";
   if (!fs::exists(libraries / "binaries" / module)) {
     throw InputError(fmt::format(
-        "{}: there is no {} for FMI {} here. Is this program installed as it was built?",
+        "{}: there is no {} for FMI {} here. In the folder where this program was built, try: "
+        "./bootstrap build; an installed one must be installed whole",
         libraries.string(), module, how.fmi_version));
   }
   const ConfigNode tree = plantScenario(scenario);
@@ -136,8 +137,9 @@ void exportFmu(const ConfigNode& scenario, const std::string& urdf_path, const F
   entries.push_back({"documentation/index.html", documentation(variables, facts)});
   // The name under which the standard wants licenses to be found.
   entries.push_back({"documentation/licenses/license.txt",
-                     "The libraries in the folder of binaries that are not ballbot's own have the "
-                     "licenses in the files beside this one, named by their Debian packages.\n"});
+                     "Ballbot's own files are under the Apache License 2.0 (ballbot-LICENSE.txt). What "
+                     "comes from others is named in ballbot-NOTICE.txt; its licenses are the other "
+                     "files beside this one, named by their Debian packages.\n"});
   for (const fs::path& file : filesIn(libraries / "licenses")) {
     entries.push_back({"documentation/licenses/" + file.filename().string(), readFile(file)});
   }

@@ -2,6 +2,7 @@
 
 #include <sys/socket.h>
 
+#include <future>
 #include <thread>
 
 #include <fmt/format.h>
@@ -75,11 +76,15 @@ void HttpServer::onEvents(const std::string& path, EventSource& source) {
 }
 
 void HttpServer::serve(const std::atomic<bool>& stop) {
-  std::thread server([this] { impl_->server.listen_after_bind(); });
+  const std::future<bool> served =
+      std::async(std::launch::async, [this] { return impl_->server.listen_after_bind(); });
   while (!stop.load()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   impl_->stopping.store(true);
+  // A server that does not listen yet would not hear stop(): Ctrl-C in the first instant.
+  while (!impl_->server.is_running() &&
+         served.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+  }
   impl_->server.stop();
-  server.join();
 }
 
 }  // namespace ballbot

@@ -1,11 +1,13 @@
-// Brings viewer/node_modules to what package-lock.json says. Does nothing, and needs no network,
-// if it is there already.
+// Usage: node install.mjs [--with-tests]
+// Brings viewer/node_modules to what package-lock.json says; what only the tests need with
+// --with-tests alone. Does nothing, and needs no network, if it is there already.
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const folder = dirname(dirname(fileURLToPath(import.meta.url)));
+const withTests = process.argv.includes('--with-tests');
 const npm = process.env.NPM_PROGRAM ?? 'npm';
 
 function readJson(...path) {
@@ -18,10 +20,10 @@ function isInstalled() {
   if (!existsSync(join(folder, 'node_modules', '.package-lock.json'))) return false;
   const installed = readJson('node_modules', '.package-lock.json').packages;
   const locked = Object.entries(readJson('package-lock.json').packages).filter(
-    ([path, entry]) => path !== '' && !entry.optional,
+    ([path, entry]) => path !== '' && !entry.optional && (withTests || !entry.dev),
   );
   const { dependencies, devDependencies } = readJson('package.json');
-  const named = Object.entries({ ...dependencies, ...devDependencies });
+  const named = Object.entries({ ...dependencies, ...(withTests && devDependencies) });
   return (
     locked.every(([path, entry]) => installed[path]?.version === entry.version) &&
     named.every(([name, version]) => installed[`node_modules/${name}`]?.version === version)
@@ -29,7 +31,8 @@ function isInstalled() {
 }
 
 if (!isInstalled()) {
-  const result = spawnSync(npm, ['ci', '--no-audit', '--no-fund', '--loglevel=error'], {
+  const scope = withTests ? [] : ['--omit=dev'];
+  const result = spawnSync(npm, ['ci', ...scope, '--no-audit', '--no-fund', '--loglevel=error'], {
     cwd: folder,
     stdio: ['ignore', 2, 2],
   });

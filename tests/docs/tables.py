@@ -1,0 +1,77 @@
+"""Tables of the pages, from what the program prints. Used by the pages' generated blocks.
+
+    tables.py messages                  types of messages: fingerprint, bytes
+    tables.py rejected SCENARIO         what the estimator rejected in a run of it, counted
+    tables.py estimation SCENARIO...    errors of the estimate, one run a row
+    tables.py faults                    the table of `ballbot hil --faults --json`, read from stdin
+"""
+import json
+import subprocess
+import sys
+
+from lcm_wire import Wire
+
+WHO = {
+    "step_request": ("master to participant", "one per communication step"),
+    "step_reply": ("participant to master", "one per request"),
+    "sensor_frame": ("inside the reply; in the log", "log: the estimator's period"),
+    "truth_frame": ("inside the reply; in the log", "log: 400 Hz"),
+    "actuator_command": ("inside the request; in the log", "log: 400 Hz"),
+    "state_estimate": ("log only", "400 Hz"),
+    "plan_report": ("log only", "every plan"),
+    "tick_digests": ("log only", "every 10 ms of simulated time"),
+}
+
+
+def table(head, rows):
+    print("| " + " | ".join(head) + " |")
+    print("|" + "---|" * len(head))
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+
+
+def messages():
+    wire = Wire("messages")
+
+    def size(name):
+        if name == "step_reply":
+            return f"{wire.size(name, truth_count=1)} with truth, {wire.size(name)} without"
+        if name == "tick_digests":
+            return f"{wire.size(name)} + 4 per event + 4 per event and channel"
+        return str(wire.size(name))
+
+    table(["type", "fingerprint", "from, to", "how often", "bytes"],
+          [[f"`{name}`", f"`{wire.fingerprint(name):016x}`", *WHO[name], size(name)] for name in WHO])
+    print(f"\n`message_digest` of these definitions: `{wire.messageDigest():016x}`")
+
+
+def summary(scenario):
+    run = subprocess.run(["ballbot", "run", f"configs/scenarios/{scenario}.yaml", "--in-process", "--no-report",
+                          "--quiet", "--json"], stdout=subprocess.PIPE, text=True, check=True)
+    return json.loads(run.stdout)
+
+
+def rejected(scenario):
+    table(["counted as", "times"], [[f"`{k}`", f"{v:.0f}"] for k, v in summary(scenario)["rejected"].items()])
+
+
+def estimation(*scenarios):
+    rows = []
+    for name in scenarios:
+        whole = summary(name)
+        m = whole["metrics"]
+        rows.append([f"`{name}`", f"{m['tilt_rms_deg']:.2g} degrees", f"{1e3 * m['velocity_rms_m_per_s']:.2g} mm/s",
+                     f"{m['position_drift_percent']:.1g} %", f"{abs(m['yaw_error_deg']):.1g} degrees",
+                     ", ".join(f"`{k}` {v:.0f}" for k, v in whole.get("rejected", {}).items()) or "nothing"])
+    table(["scenario", "tilt rms", "velocity rms", "drift", "yaw at the end", "rejected"], rows)
+
+
+def faults():
+    rows = json.load(sys.stdin)["rows"]
+    table(["fault", "reaction", "bound, cycles", "took"],
+          [[r["name"], r["expected"], str(r["bound_cycles"]), str(r["measured_cycles"])] for r in rows])
+    print(f"\n{len(rows)} faults, of which {sum(r['held'] for r in rows)} hold.")
+
+
+if __name__ == "__main__":
+    {"messages": messages, "rejected": rejected, "estimation": estimation, "faults": faults}[sys.argv[1]](*sys.argv[2:])
