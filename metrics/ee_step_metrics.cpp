@@ -50,7 +50,7 @@ EeStepMetrics::EeStepMetrics(std::vector<EeStep> steps, SimTime release, SimTime
   }
   for (auto it = by_time.begin(); it != by_time.end(); ++it) {
     const auto next = std::next(it);
-    const SimTime until = next == by_time.end() ? end : next->first;
+    const SimTime until = next == by_time.end() ? end : std::min(next->first, end);
     for (int i = 0; i < kPoseDim; ++i) {
       const bool angle = i >= kYawComponent;
       // A whole turn asks for nothing.

@@ -58,20 +58,20 @@ TEST_F(ReferenceLimits, AForceBesideItsFrictionConeIsRefused) {
 }
 
 TEST_F(ReferenceLimits, ATorqueLimitBelowWhatStandingStillTakesIsRefused) {
-  robot_.arm_torque_limit = 5;
+  robot_.arm_torque_limit = 1;
   EXPECT_THAT(saidOf("preview=false"), HasSubstr("to stand still with the arm at (0, -0.6, 2.171) rad"));
   const ConfigNode lqr_tree = parseYaml("{}", "law.yaml");
   ConfigReader lqr(lqr_tree);
   EXPECT_THROW(LqrLawConfig::read(lqr, robot_), InputError);
   robot_ = exampleRobot();
-  const ConfigNode tree = parseYaml("{arm_torque_limit_Nm: 5}", "tracker.yaml");
+  const ConfigNode tree = parseYaml("{arm_torque_limit_Nm: 1}", "tracker.yaml");
   ConfigReader tracker(tree);
   try {
     TrackerConfig::read(tracker, robot_);
     FAIL() << "no error";
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("tracker.yaml:1:23: arm_torque_limit_Nm: to stand still"));
-    EXPECT_THAT(e.what(), HasSubstr("must be less than its torque limit of 5 N m"));
+    EXPECT_THAT(e.what(), HasSubstr("must be less than its torque limit of 1 N m"));
   }
 }
 

@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"ArmBeyondItsStop",
                  {"--set", "controller.mpc.tasks.arm_position={weight: 5, reference: {moves: [{at_s: 2, by: [0, 0, 2]}]}}"},
                  "asks at 2 s for 4.171 rad of joint 3 ('arm_3'), must be between 0 and 2.6"},
-        BadInput{"TorqueLimitBelowTheLoad", {"--set", "robot.arm_torque_limit_Nm=5"}, "to stand still with the arm at"},
+        BadInput{"TorqueLimitBelowTheLoad", {"--set", "robot.arm_torque_limit_Nm=1"}, "to stand still with the arm at"},
         BadInput{"TorqueForNothing", {"--set", "controller.mpc.tasks.arm_torque.weight=0"}, "weight is 0, must be more than 0"},
         BadInput{"UnknownMetric", {"--set", "requirements.beauty.above=3"}, "unknown metric 'beauty'"},
         BadInput{"NoLimit", {"--set", "requirements.largest_tilt_deg={}"}, "has no limit"},
