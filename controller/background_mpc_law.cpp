@@ -44,8 +44,9 @@ void BackgroundMpcLaw::solveForever() {
 PlanReport BackgroundMpcLaw::plan(SimTime now, const StateVector& x,
                                   const JointVector& joint_angle) noexcept {
   const MpcPolicy& active = results_.front().policy;
+  const bool refused = !results_.front().report.accepted;
   Request& request = requests_.back();
-  request.stand_in = execution_.planStandIn(active, now, x, joint_angle);
+  request.stand_in = execution_.planStandIn(active, refused, now, x, joint_angle);
   request.now = now;
   request.x = x;
   request.xf = execution_.filterState();
@@ -54,7 +55,7 @@ PlanReport BackgroundMpcLaw::plan(SimTime now, const StateVector& x,
   requests_.publish();
   sem_post(&wake_);
   PlanReport report = results_.front().report;
-  report.fallback = execution_.fellBack(active, now);
+  report.fallback = execution_.fellBack(active, refused, now);
   return report;
 }
 

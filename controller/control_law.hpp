@@ -17,6 +17,7 @@ struct PolicySample {
   FeedbackGain feedback = FeedbackGain::Zero();     ///< K, multiplies x - x_ref
   JointVector joint_position = JointVector::Zero(); ///< wheels: integrated along the plan [rad]
   JointVector joint_velocity = JointVector::Zero(); ///< [rad/s]
+  bool from_stand_in = false;  ///< not the law itself: what acts for lack of a plan. Not saved
 };
 
 /// What a plan counted on at the end-effector, for the record.

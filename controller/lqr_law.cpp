@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "controller/policy_sample_blob.hpp"
+#include "controller/reference_limits.hpp"
 #include "core/config_reader.hpp"
 
 namespace ballbot {
@@ -28,6 +29,10 @@ LqrLawConfig LqrLawConfig::read(ConfigReader& in, const RobotParameters& robot) 
       in.numberOr("position_error_limit_m", c.position_error_limit, {kTiny, 100});
   c.yaw_error_limit = in.numberOr("yaw_error_limit_rad", c.yaw_error_limit, {kTiny, 100});
   in.finish();
+  JointVector torque_limit;
+  torque_limit << Vector3::Constant(robot.wheel_torque_limit),
+      Vector3::Constant(robot.arm_torque_limit);
+  requireStaticTorque(robot, c.set_point.arm, torque_limit, in.at("set_point"));
   return c;
 }
 

@@ -11,13 +11,14 @@ bool MpcExecution::inForce(const MpcPolicy& active, SimTime now) const noexcept 
   return active.valid() && now - active.stamp() <= fallback_after_;
 }
 
-bool MpcExecution::fellBack(const MpcPolicy& active, SimTime now) const noexcept {
-  return active.valid() && !inForce(active, now);
+bool MpcExecution::fellBack(const MpcPolicy& active, bool refused, SimTime now) const noexcept {
+  return (active.valid() || refused) && !inForce(active, now);
 }
 
-PolicySample MpcExecution::planStandIn(const MpcPolicy& active, SimTime now, const StateVector& x,
+PolicySample MpcExecution::planStandIn(const MpcPolicy& active, bool refused, SimTime now,
+                                       const StateVector& x,
                                        const JointVector& joint_angle) noexcept {
-  if (x.allFinite() && !fellBack(active, now)) {
+  if (x.allFinite() && !fellBack(active, refused, now)) {
     lqr_.setGroundSetPoint(x.segment<2>(kBallX), x[kYaw]);
   }
   PolicySample stand_in;
@@ -27,11 +28,13 @@ PolicySample MpcExecution::planStandIn(const MpcPolicy& active, SimTime now, con
 }
 
 void MpcExecution::sample(const MpcPolicy& active, SimTime now, PolicySample& out) const noexcept {
-  if (inForce(active, now)) {
+  const bool planned = inForce(active, now);
+  if (planned) {
     active.sample(now, xf_, out);
   } else {
     lqr_.sample(now, out);
   }
+  out.from_stand_in = !planned;
 }
 
 void MpcExecution::commanded(SimDuration period, const JointVector& torque) noexcept {

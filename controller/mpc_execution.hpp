@@ -12,13 +12,15 @@ class MpcExecution {
   MpcExecution(const RobotParameters& robot, const MpcConfig& config);
 
   bool inForce(const MpcPolicy& active, SimTime now) const noexcept;
-  /// There was a plan, and it is too old.
-  bool fellBack(const MpcPolicy& active, SimTime now) const noexcept;
+  /// The LQR stands in for lack of a plan: the last one is too old, or there never was one and the
+  /// solver has `refused` already.
+  bool fellBack(const MpcPolicy& active, bool refused, SimTime now) const noexcept;
 
-  /// Plans the LQR beside the MPC. As long as plans are good its set-point follows the robot.
+  /// Plans the LQR beside the MPC. As long as plans are good its set-point follows the robot; then
+  /// it stays, so that the LQR holds the place.
   /// @return what the LQR would do now, from which a solve may start
-  PolicySample planStandIn(const MpcPolicy& active, SimTime now, const StateVector& x,
-                           const JointVector& joint_angle) noexcept;
+  PolicySample planStandIn(const MpcPolicy& active, bool refused, SimTime now,
+                           const StateVector& x, const JointVector& joint_angle) noexcept;
   void activateStandIn() noexcept { lqr_.activatePlan(); }
 
   void sample(const MpcPolicy& active, SimTime now, PolicySample& out) const noexcept;

@@ -8,8 +8,8 @@
 namespace ballbot {
 
 /// Whole-body MPC as a control law, solved where plan() is called: for runs in lockstep, where a
-/// plan's latency is a matter of configuration. If no plan was good for `fallback_after`, the LQR
-/// holds the robot where it is until plans succeed again.
+/// plan's latency is a matter of configuration. If no plan was good for `fallback_after`, or none
+/// ever, the LQR holds the robot where it is until plans succeed again.
 class MpcLaw final : public ControlLaw {
  public:
   MpcLaw(const RobotParameters& robot, const MpcConfig& config);

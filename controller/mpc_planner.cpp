@@ -4,6 +4,7 @@
 
 #include "controller/continuous_engine.hpp"
 #include "controller/discrete_engine.hpp"
+#include "controller/reference_limits.hpp"
 #include "core/config_reader.hpp"
 #include "core/error.hpp"
 
@@ -74,6 +75,12 @@ MpcConfig MpcConfig::read(ConfigReader& in, const RobotParameters& robot) {
     c.contact_supervision = ContactSupervision::read(supervision);
   }
   c.fallback_after = in.durationOr("fallback_after_ms", c.fallback_after, {1, 1e6});
+  if (toSeconds(c.fallback_after) > c.horizon.length) {
+    throw InputError(fmt::format("{} is {:g}, which is beyond the end of a plan: at most {:g}, the "
+                                 "length of the horizon",
+                                 in.at("fallback_after_ms"), 1e3 * toSeconds(c.fallback_after),
+                                 1e3 * c.horizon.length));
+  }
   if (in.has("continuous")) {
     ConfigReader continuous = in.child("continuous");
     c.continuous.tolerance =
@@ -96,6 +103,7 @@ MpcConfig MpcConfig::read(ConfigReader& in, const RobotParameters& robot) {
   c.schedule = std::make_shared<TaskSchedule>(TaskSchedule::read(tasks, robot));
   requireInputsFor(tasks, "contact_force", "contact_forces", c.contact_forces);
   requireInputsFor(tasks, "contact_moment", "contact_moments", c.contact_moments);
+  requireWithinLimits(*c.schedule, c.constraints, robot, tasks);
   in.finish();
   return c;
 }
@@ -111,7 +119,25 @@ MpcPlanner::MpcPlanner(const RobotParameters& robot, const MpcConfig& config)
       dynamics_(robot),
       supervisor_(config.contact_supervision),
       engine_(makeEngine(robot, config)),
-      seed_(engine_->emptyPolicy()) {}
+      seed_(engine_->emptyPolicy()) {
+  const LqrSolution lqr = designLqr(dynamics_, config.lqr.set_point.arm, config.lqr.weights);
+  if (config.engine == MpcConfig::Engine::kDiscrete) {
+    seed_gains_ = designHeldLqr(dynamics_, lqr, config.lqr.weights, config.horizon.knots());
+  } else {  // its feedback acts at every instant
+    seed_gains_.assign(seed_.controls().size(), lqr.K);
+  }
+}
+
+void MpcPlanner::seedFrom(const PolicySample& stand_in, SimTime now, double yaw) noexcept {
+  for (auto& knot : seed_.knots()) knot.x << stand_in.x, Vector3::Zero();
+  for (std::size_t k = 0; k < seed_gains_.size(); ++k) {
+    auto& control = seed_.controls()[k];
+    control.u << stand_in.torque, ContactInput::Zero();
+    control.K.setZero();
+    control.K.topLeftCorner<kJointCount, kStateDim>() = gainAtYaw(seed_gains_[k], yaw);
+  }
+  seed_.setValid(now);
+}
 
 ContactReport MpcPlanner::superviseContact(SimTime now, const StateVector& x) noexcept {
   ContactReport report;
@@ -145,15 +171,7 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
   }
   report.contact = superviseContact(now, x);
   const bool fresh = previous.valid() && now - previous.stamp() <= config_.fallback_after;
-  if (!fresh) {
-    for (auto& knot : seed_.knots()) knot.x << stand_in.x, Vector3::Zero();
-    for (auto& control : seed_.controls()) {
-      control.u << stand_in.torque, ContactInput::Zero();
-      control.K.setZero();
-      control.K.topLeftCorner<kJointCount, kStateDim>() = stand_in.feedback;
-    }
-    seed_.setValid(now);
-  }
+  if (!fresh) seedFrom(stand_in, now, x[kYaw]);
   MpcState x0;
   x0 << x, xf;
   const SlqReport slq = engine_->solve(now, x0, fresh ? previous : seed_,

@@ -5,6 +5,7 @@
 #include "controller/contact_supervisor.hpp"
 #include "controller/continuous_engine.hpp"
 #include "controller/frequency_shaping.hpp"
+#include "controller/held_lqr.hpp"
 #include "controller/horizon.hpp"
 #include "controller/lqr_law.hpp"
 #include "controller/mpc_engine.hpp"
@@ -70,6 +71,8 @@ class MpcPlanner {
   void setShift(double shift) noexcept { engine_->setShift(shift); }
 
  private:
+  /// A guess where there is no plan: the LQR's policy, its gains those for the engine's steps.
+  void seedFrom(const PolicySample& stand_in, SimTime now, double yaw) noexcept;
   /// Tells the engine what to count on at the end-effector.
   ContactReport superviseContact(SimTime now, const StateVector& x) noexcept;
 
@@ -78,6 +81,7 @@ class MpcPlanner {
   ContactSupervisor supervisor_;
   Vector3 contact_force_W_ = Vector3::Zero();
   std::unique_ptr<MpcEngine> engine_;
+  std::vector<FeedbackGain> seed_gains_;  ///< per control of the seed, at zero yaw
   MpcPolicy seed_;
 };
 

@@ -1,5 +1,6 @@
 #include "controller/pd_tracker.hpp"
 
+#include "controller/reference_limits.hpp"
 #include "core/config_reader.hpp"
 
 namespace ballbot {
@@ -28,6 +29,7 @@ TrackerConfig TrackerConfig::read(ConfigReader& in, const RobotParameters& robot
       in.numberOr("arm_torque_limit_Nm", robot.arm_torque_limit, {kTiny, robot.arm_torque_limit}));
   c.policy_feedback = in.numberOr("policy_feedback", c.policy_feedback, {0, 1});
   in.finish();
+  requireStaticTorque(robot, robot.nominal_arm, c.torque_limit, in.at("arm_torque_limit_Nm"));
   return c;
 }
 

@@ -16,15 +16,23 @@ namespace {
 /// A task of the file: weight, and a reference where there can be one.
 template <int N>
 void readTask(ConfigReader& in, const char* key, TimedWeight<N>& weight,
-              TimeSignal<N>* reference = nullptr) {
+              TimeSignal<N>* reference = nullptr, double least_weight = 0) {
   if (!in.has(key)) return;
   ConfigReader task = in.child(key);
-  weight = TimedWeight<N>::read(task);
+  weight = TimedWeight<N>::read(task, least_weight);
   if (reference && task.has("reference")) {
     ConfigReader signal = task.child("reference");
     *reference = TimeSignal<N>::read(signal, reference->value(-kInf));
   }
   task.finish();
+}
+
+/// Of a joint's torque: without a weight, at any time, the problem has no solution.
+void readTorqueTask(ConfigReader& in, const char* key, TimedWeight<1>& weight) {
+  if (!in.has(key)) {
+    throw InputError(fmt::format("{} is missing: a torque must cost something", in.at(key)));
+  }
+  readTask<1>(in, key, weight, nullptr, kTiny);
 }
 
 /// Angular velocity in W of R = Rz(yaw) Ry(pitch) Rx(roll) at given angle rates.
@@ -58,8 +66,8 @@ TaskSchedule TaskSchedule::read(ConfigReader& in, const RobotParameters& robot) 
   readTask(in, "base_rate", s.base_rate_weight);
   readTask(in, "arm_position", s.arm_position_weight, &s.arm_position);
   readTask(in, "arm_rate", s.arm_rate_weight);
-  readTask(in, "wheel_torque", s.wheel_torque_weight);
-  readTask(in, "arm_torque", s.arm_torque_weight);
+  readTorqueTask(in, "wheel_torque", s.wheel_torque_weight);
+  readTorqueTask(in, "arm_torque", s.arm_torque_weight);
   readTask(in, "contact_force", s.contact_force_weight, &s.contact_force);
   readTask(in, "contact_moment", s.contact_moment_weight, &s.contact_moment);
   if (in.has("contact_turn")) {
@@ -79,11 +87,6 @@ TaskSchedule TaskSchedule::read(ConfigReader& in, const RobotParameters& robot) 
                                    in.at("contact_normal"), n[0], n[1], n[2]));
     }
     s.contact_normal_W.normalize();
-  }
-  for (const char* torque : {"wheel_torque", "arm_torque"}) {
-    if (!in.has(torque)) {
-      throw InputError(fmt::format("{} is missing: a torque must cost something", in.at(torque)));
-    }
   }
   s.preview = in.booleanOr("preview", s.preview);
   in.finish();

@@ -51,6 +51,29 @@ typename TimeSignal<N>::Vector TimeSignal<N>::rate(double t) const {
 }
 
 template <int N>
+std::vector<typename TimeSignal<N>::Step> TimeSignal<N>::steps() const {
+  std::vector<Step> out;
+  for (const Move& m : moves_) {
+    if (m.over == 0) out.push_back({m.at, m.by});
+  }
+  return out;
+}
+
+template <int N>
+std::vector<double> TimeSignal<N>::turningTimes() const {
+  constexpr int kPerTurn = 64;
+  std::vector<double> out = {0};
+  for (const Move& m : moves_) {
+    for (int i = 0; m.radius != 0 && i < kPerTurn; ++i) {
+      out.push_back(m.at + std::min(m.over, i * m.period / kPerTurn));
+    }
+    out.push_back(m.at);
+    out.push_back(m.at + m.over);
+  }
+  return out;
+}
+
+template <int N>
 void TimeSignal<N>::circle(double at, double radius, double period, double turns) {
   static_assert(N >= 1);
   moves_.push_back({at, turns * period, Vector::Zero(), radius, period});
@@ -102,8 +125,8 @@ void TimedWeight<N>::change(double at, const Vector& weight) {
 }
 
 template <int N>
-TimedWeight<N> TimedWeight<N>::read(ConfigReader& in) {
-  TimedWeight out(readVector<N>(in, "weight", 0, 1e9));
+TimedWeight<N> TimedWeight<N>::read(ConfigReader& in, double least) {
+  TimedWeight out(readVector<N>(in, "weight", least, 1e9));
   double last = -kInf;
   for (ConfigReader& change : in.list("weight_changes")) {
     const double at = change.number("at_s", {0, kLongest_s});
@@ -112,7 +135,7 @@ TimedWeight<N> TimedWeight<N>::read(ConfigReader& in) {
                                    change.at("at_s"), at, last));
     }
     last = at;
-    out.change(at, readVector<N>(change, "weight", 0, 1e9));
+    out.change(at, readVector<N>(change, "weight", least, 1e9));
     change.finish();
   }
   return out;

@@ -24,6 +24,18 @@ class TimeSignal {
   /// Time derivative; zero at a step.
   Vector rate(double t) const;
 
+  /// A move that is made at once.
+  struct Step {
+    double at;  ///< [s]
+    Vector by;
+  };
+  std::vector<Step> steps() const;
+  /// Whether it ever changes.
+  bool moves() const { return !moves_.empty(); }
+  /// Times at which it may be at an extreme: its start, begin and end of each move, and 64 points on
+  /// the first turn of a circle [s].
+  std::vector<double> turningTimes() const;
+
   void step(double at, const Vector& by) { moves_.push_back({at, 0, by, 0, 0}); }
   void ramp(double at, double over, const Vector& by) { moves_.push_back({at, over, by, 0, 0}); }
   /// Around the point `radius` to the left of the start in the first two components, leaving in
@@ -61,7 +73,8 @@ class TimedWeight {
   void change(double at, const Vector& weight);
 
   /// Keys: weight, and weight_changes: a list of {at_s, weight} in order of time.
-  static TimedWeight read(ConfigReader& in);
+  /// @param least  of any weight at any time
+  static TimedWeight read(ConfigReader& in, double least = 0);
 
  private:
   struct Change {

@@ -1,22 +1,28 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "controller/tasks.hpp"
 #include "experiment/scenario.hpp"
 #include "metrics/ee_step_metrics.hpp"
+#include "metrics/home_frame.hpp"
 
 namespace ballbot {
 
-/// The steps that a scenario asks of the end-effector, for those who judge and draw the run.
+/// What a scenario asks of the end-effector, for those who judge and draw the run.
 struct EeReference {
-  PoseVector initial = PoseVector::Zero();  ///< before the first step
-  std::vector<EeStep> steps;
+  std::shared_ptr<const TaskSchedule> schedule;  ///< none where another law than an MPC is in charge
+  HomeFrame home;                                ///< in which it is meant
 
-  PoseVector at(SimTime t) const;
+  /// Whether it is ever asked to go anywhere.
+  bool moves() const;
+  /// What is asked for at once; ramps and circles are no steps.
+  std::vector<EeStep> steps() const;
+  PoseVector at(SimTime t) const;  ///< in the home frame; zero without a schedule
 };
 
-/// From the tasks ee_position and ee_orientation of the MPC; no steps where another law is in
-/// charge or nothing is asked. Ramps and circles are not steps and are left out.
+/// From the tasks ee_position and ee_orientation of the MPC.
 /// @throw InputError as the tasks' own reader.
 EeReference readEeReference(const Scenario& scenario);
 

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/robot_sensing.hpp"
+#include "experiment/scenario_frame.hpp"
 #include "messages/convert.hpp"
 #include "messages/wire.hpp"
 
@@ -83,18 +84,14 @@ class OnlineComparison {
 
 }  // namespace
 
-EstimationErrors makeEstimationErrors(const Scenario& scenario) {
-  const bool absolute = scenario.section("estimator").find("external_pose") != nullptr;
-  return EstimationErrors(scenario.release, absolute);
-}
-
 LogEstimate estimateLog(const Scenario& scenario, const RunLog& log) {
   if (log.sensors.empty()) {
     throw InputError("the log holds no sensor frames; was recording.sensors_period_ms negative?");
   }
   RobotSensing sensing(scenario);
   const SimDuration period = scenario.rates.estimator;
-  EstimationErrors errors = makeEstimationErrors(scenario);
+  const HomeFrame home = homeFrame(scenario);
+  EstimationErrors errors(scenario.release);
   ErrorTable table;
   OnlineComparison comparison(log.estimates);
   LogEstimate out;
@@ -122,7 +119,7 @@ LogEstimate estimateLog(const Scenario& scenario, const RunLog& log) {
     if (known) {
       TruthFrame truth;
       fromMessage(*truth_message, truth);
-      errors.add(truth, stateOf(estimate_message));
+      errors.add(home.see(truth), stateOf(estimate_message));
       if (const auto own = sensing.estimator().selfAssessment()) errors.addConsistency(*own);
     }
     table.add(frame.time, known && errors.started() ? &errors.last() : nullptr,

@@ -35,7 +35,4 @@ struct LogEstimate {
 /// @throw InputError if the log holds no sensor frames, or the scenario's estimator is not right.
 LogEstimate estimateLog(const Scenario& scenario, const RunLog& log);
 
-/// Judges estimates of a scenario: from its release, absolute where an outside pose is measured.
-EstimationErrors makeEstimationErrors(const Scenario& scenario);
-
 }  // namespace ballbot

@@ -37,9 +37,13 @@ MotionMetrics::MotionMetrics(const Scenario& scenario)
       tracking_(scenario.release),
       margins_(limitsOf(believedRobot(scenario), mpc_), scenario.release) {}
 
+PlaceReference MotionMetrics::place(SimTime t) const {
+  return mpc_ ? placeReference(*mpc_->schedule, toSeconds(t)) : PlaceReference();
+}
+
 void MotionMetrics::add(const TruthFrame& truth, const ActuatorCommand& command) {
   margins_.add(truth, command);
-  if (mpc_) tracking_.add(truth, placeReference(*mpc_->schedule, toSeconds(truth.time)));
+  tracking_.add(truth, place(truth.time));
 }
 
 std::map<std::string, double> MotionMetrics::values() const {

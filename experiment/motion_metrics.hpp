@@ -26,6 +26,9 @@ class MotionMetrics {
   /// @throw InputError as the readers of the controller's section.
   explicit MotionMetrics(const Scenario& scenario);
 
+  /// What is asked for at time t; nothing where another law than an MPC is in charge.
+  PlaceReference place(SimTime t) const;
+  /// @param truth  as seen from the home frame, in which the tasks are meant
   void add(const TruthFrame& truth, const ActuatorCommand& command);
 
   std::map<std::string, double> values() const;

@@ -13,7 +13,7 @@ namespace ballbot {
 namespace {
 
 constexpr const char* kBlobKind = "controller";
-constexpr std::uint32_t kBlobVersion = 6;
+constexpr std::uint32_t kBlobVersion = 7;
 
 }  // namespace
 
@@ -108,6 +108,8 @@ void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutp
     case TrackStatus::kNotFinite: ++ticks_not_finite_; break;
   }
   if (now >= release_) {
+    ++ticks_released_;
+    if (policy_.from_stand_in) ++ticks_on_fallback_;
     const ActuatorCommand& c = out.command;  // with the PD in the drives, their part is added here
     const JointVector whole = c.torque + c.stiffness.cwiseProduct(c.position - sensors.joint_angle) +
                               c.damping.cwiseProduct(c.velocity - sensors.joint_velocity);
@@ -136,6 +138,8 @@ StateBlob RobotController::saveState() const {
   out.put(plans_on_fallback_);
   out.put(ticks_saturated_);
   out.put(ticks_not_finite_);
+  out.put(ticks_released_);
+  out.put(ticks_on_fallback_);
   feedforward_share_.save(out);
   return out.seal(kBlobKind, kBlobVersion);
 }
@@ -164,6 +168,8 @@ void RobotController::restore(const StateBlob& blob, bool with_law) {
   plans_on_fallback_ = in.get<std::int64_t>();
   ticks_saturated_ = in.get<std::int64_t>();
   ticks_not_finite_ = in.get<std::int64_t>();
+  ticks_released_ = in.get<std::int64_t>();
+  ticks_on_fallback_ = in.get<std::int64_t>();
   feedforward_share_.restore(in);
   in.finish();
 }
@@ -176,6 +182,9 @@ std::map<std::string, double> RobotController::counters() const {
   out["plans_on_fallback"] = number(plans_on_fallback_);
   out["ticks_saturated"] = number(ticks_saturated_);
   out["ticks_not_finite"] = number(ticks_not_finite_);
+  if (ticks_released_ > 0) {
+    out[kFallbackPercent] = 100 * number(ticks_on_fallback_) / number(ticks_released_);
+  }
   return out;
 }
 

@@ -16,6 +16,10 @@
 
 namespace ballbot {
 
+/// Name of a metric: share of the tracker's ticks after the release in which an LQR stood in for lack
+/// of a plan.
+constexpr const char* kFallbackPercent = "fallback_percent";
+
 /// Wall-clock time of one plan() call and of its phases.
 struct PlanTimes {
   std::int64_t total_ns = 0;
@@ -40,7 +44,8 @@ class RobotController final : public SteppedController {
   void takeOver(const StateBlob& blob);
 
   /// Counts over the run, for the summary: plans made, refused and made while the LQR stood in, ticks
-  /// with saturated torque or a command that was not finite, and what the estimator rejected.
+  /// with saturated torque or a command that was not finite, and what the estimator rejected; and
+  /// from the release on kFallbackPercent.
   std::map<std::string, double> counters() const;
 
   /// For those who hold the estimator's own judgement against the truth.
@@ -74,6 +79,7 @@ class RobotController final : public SteppedController {
   SimTime pending_since_{};
   std::int64_t plans_ = 0, plans_refused_ = 0, plans_on_fallback_ = 0;
   std::int64_t ticks_saturated_ = 0, ticks_not_finite_ = 0;
+  std::int64_t ticks_released_ = 0, ticks_on_fallback_ = 0;  ///< the second is part of the first
 
   PhaseClock wall_clock_ns_ = nullptr;
   std::vector<PlanTimes> plan_times_;

@@ -8,6 +8,7 @@
 #include "cosim/recorder.hpp"
 #include "cosim/step_master.hpp"
 #include "experiment/checkpoint_files.hpp"
+#include "experiment/plan_age.hpp"
 #include "experiment/plant_link.hpp"
 #include "experiment/robot_controller.hpp"
 #include "experiment/run_metrics.hpp"
@@ -81,6 +82,7 @@ std::vector<std::string> checkBeside(const RobotController& controller, const Sc
   std::vector<std::string> known = RunMetrics::names(controller);
   judge(scenario.requirements, {}, known);
   readRecording(scenario);
+  requireYoungPlans(scenario);
   checkPlant(scenario);
   return known;
 }
@@ -175,7 +177,10 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out,
   result.trajectory_digest = recorder.trajectoryDigest();
   result.metrics = metrics.values(controller);
   result.verdicts = judge(scenario.requirements, result.metrics, known_metrics);
+  const auto fallback = result.metrics.find(kFallbackPercent);
+  result.no_plan_acted = fallback != result.metrics.end() && fallback->second == 100;
   result.passed = result.fell ? askForFall(scenario.requirements) : result.completed;
+  result.passed = result.passed && !result.no_plan_acted;
   for (const VerdictRow& row : result.verdicts) result.passed = result.passed && row.passed;
 
   writeSummary(scenario, result, folder);

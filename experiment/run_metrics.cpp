@@ -1,44 +1,46 @@
 #include "experiment/run_metrics.hpp"
 
 #include "experiment/believed_robot.hpp"
-#include "experiment/ee_reference.hpp"
-#include "experiment/estimate_log.hpp"
 #include "messages/convert.hpp"
 #include "plant/environment.hpp"
+#include "plant/surroundings.hpp"
 
 namespace ballbot {
 namespace {
 
-std::vector<PushMetrics::Interval> pushIntervals(const Scenario& scenario) {
+std::vector<PushMetrics::Interval> pushIntervals(const Scenario& scenario, const HomeFrame& home) {
+  const Matrix3 to_home = home.R_WH().transpose();
   std::vector<PushMetrics::Interval> out;
   for (const Push& push : scheduledPushes(scenario.tree)) {
-    out.push_back({push.start, push.end(), push.force_W.head<2>()});
+    out.push_back({push.start, push.end(), (to_home * push.force_W).head<2>()});
   }
   return out;
 }
 
-EeStepMetrics stepMetrics(const Scenario& scenario) {
-  const EeReference reference = readEeReference(scenario);
-  return {reference.initial, reference.steps, kSimStart + scenario.duration};
+ContactMetrics contactMetrics(const Scenario& scenario) {
+  const auto door = surroundingsOf(scenario.tree).door;
+  if (!door) return ContactMetrics(scenarioRobot(scenario));
+  return ContactMetrics(scenarioRobot(scenario), door->opening_limit);
 }
 
 }  // namespace
 
 RunMetrics::RunMetrics(const Scenario& scenario)
-    : balance_(scenario.release),
-      push_(pushIntervals(scenario)),
+    : reference_(readEeReference(scenario)),
+      balance_(scenario.release),
+      push_(pushIntervals(scenario, reference_.home), scenario.release),
       motion_(scenario),
-      steps_(stepMetrics(scenario)),
-      contact_(scenarioRobot(scenario)),
-      estimation_(makeEstimationErrors(scenario)) {}
+      steps_(reference_.steps(), scenario.release, kSimStart + scenario.duration),
+      contact_(contactMetrics(scenario)),
+      estimation_(scenario.release) {}
 
 void RunMetrics::add(const Tick& tick, const RobotController& controller) {
   if (!tick.truth) return;
-  const TruthFrame& truth = *tick.truth;
+  const TruthFrame truth = reference_.home.see(*tick.truth);
   balance_.add(truth, tick.control.command);
-  push_.add(truth);
+  push_.add(truth, motion_.place(truth.time));
   motion_.add(truth, tick.control.command);
-  steps_.add(truth);
+  steps_.add(truth, reference_.at(truth.time));
   contact_.add(truth, Eigen::Map<const Vector3>(tick.control.plan.contact_asked_W),
                Eigen::Map<const Vector3>(tick.control.estimate.contact_force_W));
   if (!tick.control.has_estimate) return;
@@ -66,6 +68,7 @@ std::vector<std::string> RunMetrics::names(const RobotController& controller) {
     all.insert(all.end(), names.begin(), names.end());
   }
   for (const auto& counter : controller.counters()) all.push_back(counter.first);
+  all.push_back(kFallbackPercent);
   return all;
 }
 

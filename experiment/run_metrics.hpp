@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cosim/tick.hpp"
+#include "experiment/ee_reference.hpp"
 #include "experiment/motion_metrics.hpp"
 #include "experiment/robot_controller.hpp"
 #include "experiment/scenario.hpp"
@@ -17,7 +18,7 @@
 namespace ballbot {
 
 /// Everything that is measured of a run (docs/metrics.md). Judged from the plant's truth, which no
-/// controller sees.
+/// controller sees, in the frame in which the controller lives.
 class RunMetrics {
  public:
   /// @throw InputError with file, line and column.
@@ -34,6 +35,7 @@ class RunMetrics {
   static std::vector<std::string> names(const RobotController& controller);
 
  private:
+  EeReference reference_;
   BalanceMetrics balance_;
   PushMetrics push_;
   MotionMetrics motion_;

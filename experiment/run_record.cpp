@@ -48,6 +48,7 @@ Json summaryJson(const Scenario& scenario, const RunResult& result) {
   s["passed"] = result.passed;
   s["fell"] = result.fell;
   s["completed"] = result.completed;
+  s["no_plan_acted"] = result.no_plan_acted;
   s["simulated_s"] = toSeconds(result.end);
   s["trajectory_digest"] = result.trajectory_digest;
   // The two numbers people ask for first stand at the top as well.
@@ -67,6 +68,7 @@ Json summaryJson(const Scenario& scenario, const RunResult& result) {
     Json r;
     r["metric"] = row.metric;
     r["limit"] = row.limit;
+    r["measured"] = row.measured;
     if (row.measured) r["value"] = row.value;
     r["passed"] = row.passed;
     s["requirements"].push_back(r);

@@ -21,10 +21,12 @@ Vector3 pushPoint(const Push& push, const Vector3& p_WK,
   return body.p_WL + body.R_WL * push.p_BP_B;
 }
 
-ReplayPose pose(const PoseVector& reference) {
-  const Vector3 angles = reference.tail<3>();
-  return pose(reference.head<3>(), Eigen::Quaterniond(
-      rotationFromYawPitchRoll(angles[0], angles[1], angles[2])));
+/// What is asked of the end-effector, in W.
+ReplayPose askedPose(const EeReference& reference, SimTime t) {
+  const PoseVector asked = reference.at(t);
+  const Matrix3 R_HE = rotationFromYawPitchRoll(asked[3], asked[4], asked[5]);
+  return pose(reference.home.pointInW(asked.head<3>()),
+              Eigen::Quaterniond(reference.home.R_WH() * R_HE));
 }
 
 }  // namespace
@@ -61,7 +63,7 @@ ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot,
     hand.poses.push_back({{m.p_WE[0], m.p_WE[1], m.p_WE[2]},
                           {m.quat_WE[0], m.quat_WE[1], m.quat_WE[2], m.quat_WE[3]}});
     const SimTime time = simTimeFromNs(m.sim_time_ns);
-    asked.poses.push_back(pose(reference.at(time)));
+    asked.poses.push_back(askedPose(reference, time));
     StateVector x;
     x << Eigen::Map<const PositionVector>(m.q), Eigen::Map<const VelocityVector>(m.nu);
     const auto bodies = bodyPoses(robot, x);
@@ -77,7 +79,7 @@ ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot,
   }
   replay.bodies = {std::move(base), std::move(ball)};
   replay.frames = {std::move(hand)};
-  if (!reference.steps.empty()) replay.frames.push_back(std::move(asked));
+  if (reference.moves()) replay.frames.push_back(std::move(asked));
   replay.forces = std::move(push_forces);
   if (touched) replay.forces.push_back(std::move(contact));
   return replay;

@@ -17,6 +17,7 @@
 #include "experiment/motion_metrics.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/run_replay.hpp"
+#include "experiment/scenario_frame.hpp"
 #include "experiment/text_file.hpp"
 #include "metrics/balance_metrics.hpp"
 #include "plant/environment.hpp"
@@ -136,7 +137,7 @@ PlotGroup torqueGroup(const std::vector<LogTable>& tables, const RobotParameters
 
 /// The end-effector's pose with its reference, where there is one.
 PlotGroup handGroup(const RunLog& log, const EeReference& reference) {
-  PlotGroup group{"End-effector", reference.steps.empty() ? "" : "Dashed: what was asked for.", {}, {}};
+  PlotGroup group{"End-effector", reference.moves() ? "Dashed: what was asked for." : "", {}, {}};
   PlotAxes position{"position", "m", {}, {}}, angles{"orientation", "deg", {}, {}};
   const char* const names[kPoseDim] = {"x", "y", "z", "yaw", "pitch", "roll"};
   for (int i = 0; i < kPoseDim; ++i) {
@@ -149,12 +150,13 @@ PlotGroup handGroup(const RunLog& log, const EeReference& reference) {
       truth.p_WE << m.p_WE[0], m.p_WE[1], m.p_WE[2];
       truth.quat_WE << m.quat_WE[0], m.quat_WE[1], m.quat_WE[2], m.quat_WE[3];
       measured.t.push_back(toSeconds(truth.time));
-      measured.values.push_back(scale * eePose(truth)[i]);
-      asked.values.push_back(scale * reference.at(truth.time)[i]);
+      const PoseVector wanted = reference.at(truth.time);
+      measured.values.push_back(scale * eePose(truth, wanted)[i]);
+      asked.values.push_back(scale * wanted[i]);
     }
     asked.t = measured.t;
     PlotAxes& axes = i < 3 ? position : angles;
-    if (!reference.steps.empty()) axes.series.push_back(std::move(asked));
+    if (reference.moves()) axes.series.push_back(std::move(asked));
     axes.series.push_back(std::move(measured));
   }
   group.axes = {std::move(position), std::move(angles)};
@@ -210,6 +212,7 @@ std::vector<ReportPhase> phasesOf(const Scenario& scenario, const std::vector<Pu
 
 std::string verdictText(const RunResult& result) {
   if (result.fell) return fmt::format("fell at {:.2f} s", toSeconds(result.end));
+  if (result.no_plan_acted) return "no plan ever acted";
   std::size_t met = 0;
   for (const VerdictRow& row : result.verdicts) met += row.passed ? 1 : 0;
   return fmt::format("{} of {} requirements met", met, result.verdicts.size());
@@ -231,7 +234,11 @@ void addVerdicts(const RunResult& result, ReportData& data) {
 }  // namespace
 
 void writeRunReport(const Scenario& scenario, const RunResult& result, const RunFolder& folder) {
-  const RunLog log = readRunLog(folder.logFile());
+  // Plots show what the controller was asked for and believed: in its frame. The scene is in W.
+  const RunLog log_W = readRunLog(folder.logFile());
+  RunLog log = log_W;
+  const EeReference reference = readEeReference(scenario);
+  seeFromHome(reference.home, log);
   const std::vector<LogTable> tables = logTables(log);
   const RobotParameters robot = scenarioRobot(scenario);
   const std::vector<Push> pushes = scheduledPushes(scenario.tree);
@@ -248,7 +255,6 @@ void writeRunReport(const Scenario& scenario, const RunResult& result, const Run
                                                                   ? result.metrics.at("largest_tilt_deg")
                                                                   : std::nan(""))}};
   addVerdicts(result, data);
-  const EeReference reference = readEeReference(scenario);
   data.groups = {ballGroup(tables, readMpc(scenario)), baseGroup(tables), handGroup(log, reference),
                  torqueGroup(tables, robot), armGroup(tables)};
   if (auto plans = planGroup(tables)) data.groups.push_back(std::move(*plans));
@@ -259,8 +265,8 @@ void writeRunReport(const Scenario& scenario, const RunResult& result, const Run
   data.phases = phasesOf(scenario, pushes);
   for (ReportPhase& phase : contactPhases(log)) data.phases.push_back(std::move(phase));
   if (!log.truth.empty()) {
-    data.replay = makeReplay(log, robot, pushes, reference);
-    data.replay->objects = replayObjects(log, surroundings);
+    data.replay = makeReplay(log_W, robot, pushes, reference);
+    data.replay->objects = replayObjects(log_W, surroundings);
   }
   data.manifest = {{"scenario", scenario.name}, {"seed", std::to_string(scenario.seed)},
                    {"config digest", scenario.configDigest()}, {"trajectory digest", result.trajectory_digest}};

@@ -18,6 +18,7 @@ double tiltAngle(const StateVector& x) {
 
 void BalanceMetrics::add(const TruthFrame& truth, const ActuatorCommand& command) {
   last_ = truth;
+  seen_ = true;
   if (truth.time < release_) return;
   if (!released_) {
     released_ = true;
@@ -45,6 +46,7 @@ void BalanceMetrics::add(const TruthFrame& truth, const ActuatorCommand& command
 
 std::map<std::string, double> BalanceMetrics::values() const {
   std::map<std::string, double> m;
+  if (!seen_) return m;
   m["fell"] = fell_ ? 1 : 0;
   if (fell_) m["time_of_fall_s"] = toSeconds(fall_time_);
   if (!released_) return m;

@@ -36,7 +36,7 @@ class BalanceMetrics {
 
  private:
   SimTime release_;
-  bool fell_ = false, released_ = false;
+  bool seen_ = false, fell_ = false, released_ = false;
   SimTime fall_time_{}, last_time_{};
   double largest_tilt_ = 0, largest_excursion_ = 0;
   double excursion2_integral_ = 0, tilt2_integral_ = 0, observed_s_ = 0;

@@ -17,9 +17,10 @@ double rms(double sum_of_squares, double time) { return std::sqrt(sum_of_squares
 
 }  // namespace
 
-ContactMetrics::ContactMetrics(const RobotParameters& robot)
+ContactMetrics::ContactMetrics(const RobotParameters& robot, double door_stop)
     : robot_(robot),
-      rest_pitch_(findEquilibrium(ReducedDynamics(robot), robot.nominal_arm).x[kPitch]) {}
+      rest_pitch_(findEquilibrium(ReducedDynamics(robot), robot.nominal_arm).x[kPitch]),
+      door_stop_(door_stop) {}
 
 void ContactMetrics::addPhase(Sums& sums, double dt, const TruthFrame& truth,
                               const Vector3& asked_W, const Vector3& sensed_W) {
@@ -63,6 +64,8 @@ void ContactMetrics::add(const TruthFrame& truth, const Vector3& asked_W, const 
   door_angle_ = truth.door_angle;
   largest_door_angle_ = std::max(largest_door_angle_, truth.door_angle);
 
+  door_open_ = door_open_ || door_angle_ >= door_stop_;
+  if (door_open_) return;
   if (asked < kSmallest_N) {
     touched_ = false;
     return;

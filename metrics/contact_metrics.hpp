@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,10 +16,13 @@ namespace ballbot {
 ///   build-up: from the first touch until what is asked for has not changed for kSteadyAfter;
 ///   steady: from then on.
 ///
-/// Force is the part of the true contact force along the one asked for.
+/// Force is the part of the true contact force along the one asked for. How the force is followed
+/// and kept is judged until a door stands at its stop: to push on has no more to do with the door.
 class ContactMetrics {
  public:
-  explicit ContactMetrics(const RobotParameters& robot);
+  /// @param door_stop  where a door is fully open, if there is one [rad]
+  explicit ContactMetrics(const RobotParameters& robot,
+                          double door_stop = std::numeric_limits<double>::infinity());
 
   /// @param asked_W   force on the end-effector that the scenario asks for [N]
   /// @param sensed_W  what the controller measures of it [N]
@@ -39,7 +43,8 @@ class ContactMetrics {
                 const Vector3& sensed_W);
 
   RobotParameters robot_;
-  double rest_pitch_;
+  double rest_pitch_, door_stop_;
+  bool door_open_ = false;
   bool started_ = false, touching_ = false, touched_ = false;
   SimTime last_{}, changed_{};
   double last_asked_ = 0;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,10 +10,13 @@
 
 namespace ballbot {
 
-/// Components of the end-effector's pose: position in W [m], then yaw, pitch, roll of E [rad].
+/// Components of the end-effector's pose: position [m], then yaw, pitch, roll of E [rad].
 constexpr int kPoseDim = 6;
 using PoseVector = Eigen::Matrix<double, kPoseDim, 1>;
-PoseVector eePose(const TruthFrame& truth);
+
+/// Where the end-effector is. Of all ways to write its attitude, turns more and the far side of
+/// pitch 90 degrees included, the one whose angles are nearest to those of `near`.
+PoseVector eePose(const TruthFrame& truth, const PoseVector& near);
 
 /// A step of the reference: at one time, by so much in each component.
 struct EeStep {
@@ -24,25 +27,30 @@ struct EeStep {
 /// How the end-effector follows steps of its reference, and what the ball does first.
 class EeStepMetrics {
  public:
-  /// @param reference  pose before the first step
+  /// Steps at one time are one step, and judged until the next.
+  /// @param release  times before do not count
   /// @param end  of the run
-  EeStepMetrics(const PoseVector& reference, std::vector<EeStep> steps, SimTime end);
+  EeStepMetrics(std::vector<EeStep> steps, SimTime release, SimTime end);
 
-  void add(const TruthFrame& truth);
+  /// @param reference  for the end-effector at the truth's time, in the truth's frame
+  void add(const TruthFrame& truth, const PoseVector& reference);
 
   /// Per component C of x, y, z, yaw, pitch: ee_C_rise_s, ee_C_overshoot_percent; over all steps:
   /// ee_position_error_m, ee_angle_error_rad (largest remaining), ee_roll_given_percent,
   /// ball_backs_up_m. Where a component is stepped several times, the worst counts. Absent without
-  /// such a step, and a rise time also if 90 % were never reached.
+  /// such a step within the run, and a rise time also if 90 % were never reached.
   std::map<std::string, double> values() const;
   static std::vector<std::string> names();
 
  private:
   struct Component {
     int index;
+    double by;
     StepResponse response;
     StepResponse ball;  ///< the ball's motion along the same axis, for x and y
+    std::optional<double> ball_from;
   };
+  SimTime release_;
   std::vector<Component> components_;
 };
 

@@ -28,29 +28,22 @@ void EstimationErrors::add(const TruthFrame& truth, const StateVector& estimate)
     started_ = true;
     last_ = truth.time;
     last_position_ = x_true.segment<2>(kBallX);
-    if (!absolute_) {
-      home_W_ = last_position_;
-      home_yaw_ = x_true[kYaw];
-    }
   }
-  const Eigen::Rotation2Dd to_home(-home_yaw_);
-  const Eigen::Vector2d position = to_home * (x_true.segment<2>(kBallX) - home_W_);
-  const Eigen::Vector2d velocity = to_home * x_true.segment<2>(kPositionDim + kBallVx);
-
   // The rotation about horizontal axes that takes the estimated vertical to the true one.
   const Matrix3 R_estimate = attitude(estimate);
   const Vector3 up_true_W = R_estimate * (attitude(x_true).transpose() * Vector3::UnitZ());
   error_.tilt_W << up_true_W.y(), -up_true_W.x();
   const double tilt = std::atan2(error_.tilt_W.norm(), up_true_W.z());
-  error_.velocity_W = velocity - estimate.segment<2>(kPositionDim + kBallVx);
+  error_.velocity_W = x_true.segment<2>(kPositionDim + kBallVx) -
+                      estimate.segment<2>(kPositionDim + kBallVx);
 
   const double dt = toSeconds(truth.time - last_);
   observed_s_ += dt;
   tilt2_integral_ += dt * tilt * tilt;
   velocity2_integral_ += dt * error_.velocity_W.squaredNorm();
   largest_tilt_ = std::max(largest_tilt_, tilt);
-  error_.yaw = std::remainder(x_true[kYaw] - home_yaw_ - estimate[kYaw], 2 * kPi);
-  error_.position_W = position - estimate.segment<2>(kBallX);
+  error_.yaw = std::remainder(x_true[kYaw] - estimate[kYaw], 2 * kPi);
+  error_.position_W = x_true.segment<2>(kBallX) - estimate.segment<2>(kBallX);
   distance_ += (x_true.segment<2>(kBallX) - last_position_).norm();
   last_position_ = x_true.segment<2>(kBallX);
   last_ = truth.time;

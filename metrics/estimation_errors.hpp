@@ -19,16 +19,12 @@ struct EstimationError {
 };
 
 /// How far an estimate is from the truth, accumulated over a run from the release on.
-///
-/// Without an external pose an estimator cannot know where in the world it was released: its
-/// px = py = yaw = 0 is there. So the truth is seen from the true pose at the first instant given;
-/// with `absolute` it is taken as it is.
 class EstimationErrors {
  public:
-  explicit EstimationErrors(SimTime release, bool absolute = false)
-      : release_(release), absolute_(absolute) {}
+  explicit EstimationErrors(SimTime release) : release_(release) {}
 
-  /// Both of the same instant; instants in order. What is before the release does not count.
+  /// Both of the same instant and in the same frame (HomeFrame); instants in order. What is before
+  /// the release does not count.
   void add(const TruthFrame& truth, const StateVector& estimate);
   /// Of the last instant that counted.
   const EstimationError& last() const { return error_; }
@@ -46,12 +42,10 @@ class EstimationErrors {
 
  private:
   SimTime release_;
-  bool absolute_;
   bool started_ = false;
   SimTime last_{};
   EstimationError error_;
-  Eigen::Vector2d home_W_ = Eigen::Vector2d::Zero(), last_position_ = Eigen::Vector2d::Zero();
-  double home_yaw_ = 0;
+  Eigen::Vector2d last_position_ = Eigen::Vector2d::Zero();
   double observed_s_ = 0, tilt2_integral_ = 0, velocity2_integral_ = 0;
   double largest_tilt_ = 0, distance_ = 0;
   double nees_sum_ = 0, nis_sum_ = 0, nis_degrees_sum_ = 0;

@@ -7,10 +7,10 @@
 #include "core/angle.hpp"
 #include "cosim/log_reader.hpp"
 #include "experiment/contact_report.hpp"
+#include "experiment/ee_reference.hpp"
 #include "experiment/log_tables.hpp"
-#include "experiment/motion_metrics.hpp"
+#include "experiment/scenario_frame.hpp"
 #include "metrics/ee_step_metrics.hpp"
-#include "model/frames.hpp"
 #include "plant/environment.hpp"
 #include "report/svg_figure.hpp"
 
@@ -25,8 +25,7 @@ using Message = ballbot_msgs::truth_frame;
 /// The panels of one run's picture.
 class Panels {
  public:
-  Panels(const Scenario& scenario, const RunLog& log) : log_(log), tables_(logTables(log)) {
-    if (const auto mpc = readMpc(scenario)) schedule_ = mpc->schedule;
+  Panels(const Scenario& scenario, const RunLog& log) : log_(log), tables_(logTables(log)), reference_(readEeReference(scenario)), schedule_(reference_.schedule) {
     for (const Push& push : scheduledPushes(scenario.tree)) {
       shaded_.push_back({toSeconds(push.start), toSeconds(push.end())});
     }
@@ -48,17 +47,18 @@ class Panels {
     if (name == "ball") {
       axes.y_label = "ball [m]";
       for (int i = 0; i < 2; ++i) addWithReference(axes, i == 0 ? "x" : "y", i, ballAsked(i), 1,
-          [i](const Message& m) { return m.q[kBallX + i]; }, [i](const Tasks& t) { return t.ball_position[i]; });
+          [i](const Message& m) { return m.q[kBallX + i]; },
+          [this, i](double t) { return tasksAt(t).ball_position[i]; });
     } else if (name == "ee") {
       axes.y_label = "end-effector [m]";
       for (int i = 0; i < 3; ++i) addWithReference(axes, std::string(1, static_cast<char>('x' + i)), i, eeAsked(i), 1,
-          [i](const Message& m) { return m.p_WE[i]; }, [i](const Tasks& t) { return t.p_WE[i]; });
+          [i](const Message& m) { return m.p_WE[i]; }, [this, i](double t) { return tasksAt(t).p_WE[i]; });
     } else if (name == "ee_angles") {
       axes.y_label = "end-effector [deg]";
       const char* const names[] = {"yaw", "pitch", "roll"};
       for (int i = 0; i < 3; ++i) addWithReference(axes, names[i], i, schedule_ != nullptr, kDegPerRad,
-          [i](const Message& m) { return poseOf(m)[3 + i]; },
-          [i](const Tasks& t) { return yawPitchRollFromRotation(t.R_WE)[i]; });
+          [this, i](const Message& m) { return poseOf(m)[3 + i]; },
+          [this, i](double t) { return askedPose(t)[3 + i]; });
     } else if (name == "tilt") {
       axes.y_label = "base [deg]";
       addTruth(axes, "pitch", 0, kDegPerRad, [](const Message& m) { return m.q[kPitch]; });
@@ -90,11 +90,12 @@ class Panels {
     return axes;
   }
 
-  static PoseVector poseOf(const Message& m) {
+  PoseVector askedPose(double t) const { return reference_.at(kSimStart + durationFromSeconds(t)); }
+  PoseVector poseOf(const Message& m) const {
     TruthFrame truth;
     truth.p_WE << m.p_WE[0], m.p_WE[1], m.p_WE[2];
     truth.quat_WE << m.quat_WE[0], m.quat_WE[1], m.quat_WE[2], m.quat_WE[3];
-    return eePose(truth);
+    return eePose(truth, reference_.at(simTimeFromNs(m.sim_time_ns)));
   }
 
   /// Whether a component has a weight at the run's end.
@@ -123,12 +124,13 @@ class Panels {
     addTruth(axes, name, colour, scale, value);
     if (!asked) return;
     SvgSeries series{name + " reference", colour, true, axes.series.back().x, {}};
-    for (const double t : series.x) series.y.push_back(scale * reference(tasksAt(t)));
+    for (const double t : series.x) series.y.push_back(scale * reference(t));
     axes.series.push_back(std::move(series));
   }
 
   const RunLog& log_;
   std::vector<LogTable> tables_;
+  EeReference reference_;
   std::shared_ptr<const TaskSchedule> schedule_;
   std::vector<SvgSpan> shaded_;
   std::size_t stride_ = 1;
@@ -138,7 +140,8 @@ class Panels {
 
 std::string reproductionFigure(const Scenario& scenario, const std::string& log_file,
                                const std::vector<std::string>& panels) {
-  const RunLog log = readRunLog(log_file);
+  RunLog log = readRunLog(log_file);
+  seeFromHome(homeFrame(scenario), log);
   const Panels source(scenario, log);
   std::vector<SvgAxes> axes;
   for (const std::string& name : panels) axes.push_back(source.panel(name));

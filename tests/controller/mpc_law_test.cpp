@@ -161,6 +161,55 @@ TEST_F(MpcLawTest, AProblemThatIsNotFiniteIsRefusedAndTheRobotStaysUp) {
   EXPECT_NEAR(static_cast<double>(law.failedPlans()), 4 / 0.014, 2);
 }
 
+TEST_F(MpcLawTest, WithoutAnyPlanTheLqrStandsInFromTheFirstRefusalAndHoldsThePlace) {
+  MpcConfig c = config();
+  auto schedule = std::make_shared<TaskSchedule>(*c.schedule);
+  schedule->ball_position.step(
+      0, Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  c.schedule = schedule;
+  MpcLaw law(robot_, c);
+  StateVector x0 = atRest();
+  x0[kBallX] = 2;
+  ClosedLoopOptions options;
+  options.push = [](double t) { return t >= 1 && t < 1.5 ? Vector3(10, 0, 0) : Vector3(0, 0, 0); };
+  const auto run = runClosedLoop(law, tracker(), robot_, x0, 12, options);
+  ASSERT_NEAR(run.back().time, 12, 1e-3) << "fell";
+  double excursion = 0;
+  for (const auto& s : run) {
+    ASSERT_TRUE(s.plan.fallback) << "at " << s.time << " s";
+    excursion = std::max(excursion, s.x[kBallX] - 2);
+  }
+  EXPECT_GT(excursion, 0.1);
+  EXPECT_NEAR(run.back().x[kBallX], 2, 0.05) << "it comes back to where it was";
+  EXPECT_NEAR(run.back().x[kBallY], 0, 0.05);
+  PolicySample sample;
+  law.sample(simTimeFromNs(12'000'000'000), sample);
+  EXPECT_TRUE(sample.from_stand_in);
+}
+
+TEST_F(MpcLawTest, PlansFromTheFirstForAnArmThatPointsUpOrIsLight) {
+  RobotParameters up = robot_, light = robot_;
+  up.nominal_arm.setZero();
+  for (ArmLink& link : light.arm) {
+    link.inertia.mass /= 10;
+    link.inertia.I_LLcm_L /= 10;
+  }
+  for (const RobotParameters& robot : {up, light}) {
+    robot_ = robot;
+    for (const char* horizon : {"{length_s: 1, step_ms: 20}",
+                                "{length_s: 1, step_ms: 40, fine_length_s: 0.2, fine_step_ms: 10}"}) {
+      applyOverride(tree_, std::string("mpc.horizon=") + horizon);
+      MpcLaw law(robot, config());
+      StateVector x0 = atRest();
+      x0[kPitch] += 0.05;
+      const auto run = runClosedLoop(law, tracker(), robot, x0, 3);
+      ASSERT_NEAR(run.back().time, 3, 1e-3) << "fell";
+      EXPECT_EQ(law.failedPlans(), 0) << horizon;
+      EXPECT_LT(run.back().tilt, 0.05);
+    }
+  }
+}
+
 TEST_F(MpcLawTest, StaysUpWhileNobodyPlans) {
   // From 1 s to 4 s no plan is made; the LQR has to keep the robot up and where it is.
   class Interrupted final : public ControlLaw {
@@ -307,6 +356,16 @@ TEST_F(MpcLawTest, ATorqueMustCostSomething) {
     FAIL() << "no error";
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("arm_torque is missing: a torque must cost something"));
+  }
+}
+
+TEST_F(MpcLawTest, APlanCannotActBeyondItsEnd) {
+  applyOverride(tree_, "mpc.fallback_after_ms=1200");
+  try {
+    config();
+    FAIL() << "no error";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("fallback_after_ms is 1200, which is beyond the end of a plan"));
   }
 }
 

@@ -51,6 +51,24 @@ TEST(TimeSignal, AStepIsUnknownUntilItComesAndARampIsKnownAhead) {
   EXPECT_EQ(s.value(5, 1.9), Eigen::Vector2d(1, 2.5));
 }
 
+TEST(TimeSignal, SaysWhichOfItsMovesAreStepsAndWhereItTurns) {
+  const Signal2 s = signalFrom(
+      "{moves: [{at_s: 2, by: [1, 0]}, {at_s: 4, by: [0, 1], over_s: 2},"
+      " {at_s: 8, circle_radius_m: 1, period_s: 8}]}");
+  ASSERT_EQ(s.steps().size(), 1u);
+  EXPECT_EQ(s.steps()[0].at, 2);
+  EXPECT_EQ(s.steps()[0].by, Eigen::Vector2d(1, 0));
+  EXPECT_TRUE(s.moves());
+  EXPECT_FALSE(Signal2().moves());
+  double leftmost = 0, highest = 0;
+  for (const double t : s.turningTimes()) {
+    leftmost = std::min(leftmost, s.value(t).x());
+    highest = std::max(highest, s.value(t).y());
+  }
+  EXPECT_NEAR(leftmost, 2 - 2, 1e-9) << "of the circle about (1, 3)";
+  EXPECT_NEAR(highest, 4, 1e-9);
+}
+
 TEST(TimedWeight, SwitchesATaskOnAndOff) {
   const ConfigNode tree = parseYaml(
       "{weight: 0, weight_changes: [{at_s: 2, weight: [1, 2]}, {at_s: 3, weight: 0}]}", "s.yaml");

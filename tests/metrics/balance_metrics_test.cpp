@@ -62,6 +62,10 @@ TEST(BalanceMetrics, AFallIsAFallAlsoWhenNumbersAreLost) {
   EXPECT_TRUE(lost.fell());
 }
 
+TEST(BalanceMetrics, WhoSawNothingDoesNotSayThatNothingFell) {
+  EXPECT_TRUE(BalanceMetrics(kSimStart).values().empty());
+}
+
 TEST(BalanceMetrics, NamesCoverAllValues) {
   BalanceMetrics metrics(kSimStart);
   metrics.add(at(0, 0, 0), {});

@@ -124,6 +124,25 @@ TEST(ContactMetrics, AContactThatBreaksIsNotKept) {
   EXPECT_EQ(m.at("contact_sliding_percent"), 100);
 }
 
+TEST(ContactMetrics, HowADoorIsOpenedIsJudgedUntilItStandsAtItsStop) {
+  ContactMetrics metrics(exampleRobot(), 1.0);
+  TruthFrame truth;
+  truth.p_WE << 0.2, 0, 0.95;
+  for (double t = 0; t < 10; t += 1e-2) {
+    truth.time = at(t);
+    truth.door_angle = std::min(1.01, 0.2 * t);  // there at 5 s: the hand slips off at 6 s
+    const bool touching = t < 6;
+    truth.contact_phase = touching ? ContactPhase::kSticking : ContactPhase::kNone;
+    truth.contact_force_W << (t < 5 ? -5 : touching ? -9 : 0), 0, 0;
+    metrics.add(truth, {-5, 0, 0}, Vector3::Zero());
+  }
+  const auto m = metrics.values();
+  EXPECT_EQ(m.at("contact_kept_percent"), 100);
+  EXPECT_NEAR(m.at("force_mean_N"), 5, 1e-9);
+  EXPECT_EQ(m.at("largest_contact_force_N"), 9);
+  EXPECT_NEAR(m.at("final_door_angle_deg"), 1.01 * 180 / M_PI, 1e-9);
+}
+
 TEST(ContactMetrics, SayNothingOfARunWithoutContact) {
   ContactMetrics metrics(exampleRobot());
   TruthFrame truth;

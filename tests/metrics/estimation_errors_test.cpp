@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "metrics/home_frame.hpp"
 #include "model/frames.hpp"
 #include "tests/estimator/support/filter_run.hpp"
 
@@ -24,8 +25,11 @@ TruthFrame rolling(double t) {
   return truth;
 }
 
-TEST(EstimationErrors, SeeTheTruthFromWhereTheRobotWasReleased) {
+TEST(EstimationErrors, AreNoneWhereTheTruthIsSeenFromTheEstimatorsOwnHome) {
   EstimationErrors errors(seconds(1));
+  HomeFrame home;
+  home.p_WH << 3.5, -1;
+  home.yaw = 0.7;
   for (int i = 0; i <= 300; ++i) {
     const double t = 0.01 * i;
     StateEstimate estimate;
@@ -36,7 +40,7 @@ TEST(EstimationErrors, SeeTheTruthFromWhereTheRobotWasReleased) {
     estimate.x[kBallY] = -covered * std::sin(0.7);
     estimate.x[kPositionDim + kBallVx] = 0.5 * std::cos(0.7);
     estimate.x[kPositionDim + kBallVy] = -0.5 * std::sin(0.7);
-    errors.add(rolling(t), estimate.x);
+    errors.add(home.see(rolling(t)), estimate.x);
   }
   const auto values = errors.values();
   EXPECT_NEAR(values.at("position_drift_percent"), 0, 1e-9);
@@ -47,7 +51,7 @@ TEST(EstimationErrors, SeeTheTruthFromWhereTheRobotWasReleased) {
 }
 
 TEST(EstimationErrors, AreWhatTheyAreCalled) {
-  EstimationErrors errors(seconds(0), true);
+  EstimationErrors errors(seconds(0));
   for (int i = 0; i <= 200; ++i) {
     TruthFrame truth = rolling(0.01 * i);
     truth.state[kPitch] = 2 * kRadPerDeg;
