@@ -27,8 +27,8 @@ struct DecoupledConfig {
 /// The baseline the whole-body MPC is measured against (Minniti et al. 2019, third experiment): an
 /// MPC that balances a base whose arm it takes to be rigid at its nominal pose, and beside it an
 /// arm that follows the end-effector's reference by inverse kinematics and joint PID with gravity
-/// compensation. Neither knows what the other does: both are told of a payload, but the base not
-/// where the arm takes it.
+/// compensation. Both are told of a payload, but the base not where the arm takes it; the arm may
+/// reach from where the base is, but has no say in where it goes.
 ///
 /// The tasks are those of the whole-body MPC: the base takes the ball's, the yaw's and the wheels',
 /// the arm takes the end-effector's. The PID stands in the plan's feedback, beside the tracker's
