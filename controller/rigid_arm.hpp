@@ -8,9 +8,9 @@ namespace ballbot {
 /// when it stands still at `arm` [rad]: the links are part of the base. Base and ball move exactly
 /// as those of the whole robot whose arm is held there.
 ///
-/// The three arm joints remain as coordinates, so that everything made for the whole robot fits, but
-/// they carry nothing, and what carries nothing is rigid to the dynamics: no torque moves them, and
-/// none of theirs reaches the base.
+/// The three arm joints remain as coordinates, so that everything made for the whole robot fits,
+/// but they carry nothing, and what carries nothing is rigid to the dynamics: no torque moves them,
+/// and none of theirs reaches the base.
 RobotParameters withRigidArm(const RobotParameters& robot, const Vector3& arm);
 
 }  // namespace ballbot

@@ -60,7 +60,9 @@ void linearizeDynamics(const DynamicsConstants& constants, const DynamicsLanes& 
       });
     }
   }
-  for (int k = 0; k < Residual::kColumnCount; ++k) inverse_mass.multiplyInPlace(residual.columns.col(k));
+  for (int k = 0; k < Residual::kColumnCount; ++k) {
+    inverse_mass.multiplyInPlace(residual.columns.col(k));
+  }
   const auto column = [&](int k, auto&& address) {
     lanes.put<kVelocityDim>(&residual.columns(0, k), out, address);
   };

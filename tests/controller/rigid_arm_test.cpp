@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kArmRates = kPositionDim + kArmRate1;
 
-/// What base and ball do while the arm is held: torques of the arm under which it does not accelerate.
+/// What base and ball do while the arm is held: torques of the arm under which it does not
+/// accelerate.
 VelocityVector accelerationWithTheArmHeld(const ReducedDynamics& dynamics, const PositionVector& q,
                                           const VelocityVector& nu, const Vector3& wheels) {
   JointVector tau = JointVector::Zero();
@@ -82,7 +83,8 @@ struct UpperBody {
   }
 
   double potential(const Vector3& yaw_pitch_roll) const {
-    const Matrix3 R = rotationFromYawPitchRoll(yaw_pitch_roll[0], yaw_pitch_roll[1], yaw_pitch_roll[2]);
+    const Matrix3 R =
+        rotationFromYawPitchRoll(yaw_pitch_roll[0], yaw_pitch_roll[1], yaw_pitch_roll[2]);
     double sum = 0;
     for (const Body& b : bodies_) sum += robot_.gravity * b.mass * (R * b.com).z();
     return sum;
@@ -180,7 +182,8 @@ TEST(RigidArm, KeepsMassAndEquilibriumWithWhatIsInTheHand) {
   const StateVector rest = findEquilibrium(ReducedDynamics(robot), robot.nominal_arm).x;
   const RobotParameters rigid = withRigidArm(robot, robot.nominal_arm);
   EXPECT_NEAR(rigid.totalMass(), robot.totalMass(), 1e-12);
-  EXPECT_NEAR(findEquilibrium(ReducedDynamics(rigid), robot.nominal_arm).x[kPitch], rest[kPitch], 1e-12);
+  EXPECT_NEAR(findEquilibrium(ReducedDynamics(rigid), robot.nominal_arm).x[kPitch], rest[kPitch],
+              1e-12);
 }
 
 TEST(RigidArm, ItsLqrStabilisesBaseAndBallAndLeavesTheArmAlone) {
@@ -217,7 +220,8 @@ tasks:
   base_rate: {weight: 4}
   wheel_torque: {weight: 2}
   arm_torque: {weight: 0.05}
-)", "mpc.yaml");
+)",
+                                    "mpc.yaml");
   ConfigReader in(tree);
   MpcConfig config = MpcConfig::read(in, rigid);
   config.engine = GetParam();
@@ -228,7 +232,8 @@ tasks:
   x[kPitch] += 0.05;
   x[kPositionDim + kOmegaX] = 0.2;
   for (int i = 0; i < 3; ++i) {
-    const PlanReport report = law.plan(kSimStart + std::chrono::milliseconds(14 * i), x, JointVector::Zero());
+    const PlanReport report =
+        law.plan(kSimStart + std::chrono::milliseconds(14 * i), x, JointVector::Zero());
     ASSERT_TRUE(report.accepted);
     EXPECT_EQ(report.terms.value[kArmTorqueCost], 0);
     law.activatePlan();
@@ -249,9 +254,11 @@ tasks:
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, RigidArmPlan,
-                         testing::Values(MpcConfig::Engine::kDiscrete, MpcConfig::Engine::kContinuous),
+                         testing::Values(MpcConfig::Engine::kDiscrete,
+                                         MpcConfig::Engine::kContinuous),
                          [](const auto& test) {
-                           return test.param == MpcConfig::Engine::kDiscrete ? "discrete" : "continuous";
+                           return test.param == MpcConfig::Engine::kDiscrete ? "discrete"
+                                                                             : "continuous";
                          });
 
 }  // namespace
