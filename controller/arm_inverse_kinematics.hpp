@@ -9,7 +9,7 @@ class ConfigReader;
 struct ArmInverseKinematicsConfig {
   /// The base on which the arm reaches for its place in the world.
   enum class Base {
-    kTask,       ///< upright where the base's own tasks ask it to be: the arm feels nothing of it
+    kTask,       ///< at rest where the base's own tasks ask it to be: the arm feels nothing of it
     kEstimated,  ///< where it is: the arm makes up for the base's motion
   };
   Base base = Base::kTask;

@@ -1,13 +1,13 @@
 #include "controller/decoupled_law.hpp"
 
-#include "controller/frozen_arm.hpp"
+#include "controller/rigid_arm.hpp"
 #include "core/config_reader.hpp"
 
 namespace ballbot {
 namespace {
 
 constexpr char kBlobKind[] = "decoupled_law";
-constexpr std::uint32_t kBlobVersion = 1;
+constexpr std::uint32_t kBlobVersion = 2;
 constexpr double kNoLimit = 1e3;  ///< [rad]
 
 /// The whole-body problem less everything that is about the arm.
@@ -53,18 +53,26 @@ DecoupledConfig DecoupledConfig::read(ConfigReader& in) {
 DecoupledLaw::DecoupledLaw(const RobotParameters& robot, const MpcConfig& mpc,
                            const DecoupledConfig& config)
     : ik_base_(config.inverse_kinematics.base),
-      frozen_arm_(robot.nominal_arm),
-      hold_torque_(
-          findEquilibrium(ReducedDynamics(robot), robot.nominal_arm).tau.tail<kArmJointCount>()),
+      dynamics_(robot),
+      rest_(findEquilibrium(dynamics_, robot.nominal_arm).x),
       schedule_(mpc.schedule),
       inverse_kinematics_(robot, config.inverse_kinematics),
       pid_(config.pid),
-      base_(withFrozenArm(robot, robot.nominal_arm), baseOnly(mpc)) {}
+      base_(withRigidArm(robot, robot.nominal_arm), baseOnly(mpc)) {
+  planned_.position = robot.nominal_arm;
+  planned_.gravity = gravityTorque(rest_);
+  active_ = planned_;
+}
+
+Vector3 DecoupledLaw::gravityTorque(const StateVector& x) const noexcept {
+  return dynamics_.nonlinearEffects(x.head<kPositionDim>(), VelocityVector::Zero())
+      .tail<kArmJointCount>();
+}
 
 PlanReport DecoupledLaw::plan(SimTime now, const StateVector& x,
                               const JointVector& joint_angle) noexcept {
   StateVector without_arm = x;
-  without_arm.segment<3>(kArm1) = frozen_arm_;
+  without_arm.segment<3>(kArm1) = rest_.segment<3>(kArm1);
   without_arm.segment<3>(kPositionDim + kArmRate1).setZero();
   if (x.allFinite()) planArm(now, x);
   return base_.plan(now, without_arm, joint_angle);
@@ -85,12 +93,13 @@ void DecoupledLaw::planArm(SimTime now, const StateVector& x) noexcept {
   schedule_->at(toSeconds(now), toSeconds(now), tasks);
   StateVector at_set_point = x;
   if (ik_base_ == ArmInverseKinematicsConfig::Base::kTask) {
-    at_set_point.setZero();
+    at_set_point = rest_;
     at_set_point.segment<2>(kBallX) = tasks.ball_position;
     at_set_point[kYaw] = tasks.yaw;
   }
   at_set_point.segment<3>(kArm1) = planned_.position;
   planned_.rate = inverse_kinematics_.rates(at_set_point, tasks);
+  planned_.gravity = gravityTorque(at_set_point);
 }
 
 void DecoupledLaw::activatePlan() noexcept {
@@ -106,7 +115,7 @@ void DecoupledLaw::sample(SimTime now, PolicySample& out) const noexcept {
   out.x.segment<3>(kRates) = active_.rate;
   out.joint_position.tail<kArmJointCount>() = position;
   out.joint_velocity.tail<kArmJointCount>() = active_.rate;
-  out.torque.tail<kArmJointCount>() = hold_torque_ + active_.integral;
+  out.torque.tail<kArmJointCount>() = active_.gravity + active_.integral;
   out.feedback.bottomRows<kArmJointCount>().setZero();
   out.feedback.middleCols<3>(kArm1).setZero();
   out.feedback.middleCols<3>(kRates).setZero();
@@ -125,7 +134,9 @@ StateBlob DecoupledLaw::saveState() const {
   for (const ArmPlan* plan : {&planned_, &active_}) {
     out.put(plan->valid);
     out.put(toNs(plan->stamp));
-    for (const Vector3* v : {&plan->position, &plan->rate, &plan->integral}) out.putDoubles(v->data(), 3);
+    for (const Vector3* v : {&plan->position, &plan->rate, &plan->gravity, &plan->integral}) {
+      out.putDoubles(v->data(), 3);
+    }
   }
   out.putBlob(base_.saveState());
   return out.seal(kBlobKind, kBlobVersion);
@@ -137,7 +148,9 @@ void DecoupledLaw::restoreState(const StateBlob& blob) {
   for (ArmPlan* plan : {&planned, &active}) {
     plan->valid = in.get<bool>();
     plan->stamp = simTimeFromNs(in.get<std::int64_t>());
-    for (Vector3* v : {&plan->position, &plan->rate, &plan->integral}) in.getDoubles(v->data(), 3);
+    for (Vector3* v : {&plan->position, &plan->rate, &plan->gravity, &plan->integral}) {
+      in.getDoubles(v->data(), 3);
+    }
   }
   const StateBlob base = in.getBlob();
   in.finish();

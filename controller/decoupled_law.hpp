@@ -25,9 +25,10 @@ struct DecoupledConfig {
 };
 
 /// The baseline the whole-body MPC is measured against (Minniti et al. 2019, third experiment): an
-/// MPC that balances a base whose arm it takes to be frozen at its nominal pose, and beside it an
-/// arm that follows the end-effector's reference by inverse kinematics and joint PID. Neither knows
-/// what the other does: the base is told of a payload, but not where the arm takes it.
+/// MPC that balances a base whose arm it takes to be rigid at its nominal pose, and beside it an
+/// arm that follows the end-effector's reference by inverse kinematics and joint PID with gravity
+/// compensation. Both are told of a payload, but the base not where the arm takes it; the arm may
+/// reach from where the base is, but has no say in where it goes.
 ///
 /// The tasks are those of the whole-body MPC: the base takes the ball's, the yaw's and the wheels',
 /// the arm takes the end-effector's. The PID stands in the plan's feedback, beside the tracker's
@@ -52,12 +53,16 @@ class DecoupledLaw final : public ControlLaw {
     bool valid = false;
     SimTime stamp{};
     Vector3 position = Vector3::Zero(), rate = Vector3::Zero();
+    Vector3 gravity = Vector3::Zero();   ///< torque that holds the arm at rest there [N m]
     Vector3 integral = Vector3::Zero();  ///< torque of the integral [N m]
   };
   void planArm(SimTime now, const StateVector& x) noexcept;
+  /// Torque at the arm's joints that holds the robot still at x [N m].
+  Vector3 gravityTorque(const StateVector& x) const noexcept;
 
   ArmInverseKinematicsConfig::Base ik_base_;
-  Vector3 frozen_arm_, hold_torque_;  ///< [rad], [N m]: of the arm at rest in its nominal pose
+  ReducedDynamics dynamics_;
+  StateVector rest_;  ///< of the robot with its arm in the nominal pose, which is all the base knows
   std::shared_ptr<const TaskSchedule> schedule_;
   ArmInverseKinematics inverse_kinematics_;
   ArmPidConfig pid_;

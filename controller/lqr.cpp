@@ -4,8 +4,28 @@
 
 #include "controller/riccati_equation.hpp"
 #include "core/config_reader.hpp"
+#include "model/dynamics_constants.hpp"
 
 namespace ballbot {
+namespace {
+
+/// The value's P. A rigid arm's coordinates do not move and are no error: their rows and columns
+/// are zero, and the equation is that of the others.
+StateJacobian solveForValue(const StateJacobian& A, const StateJacobian& G, const StateJacobian& Q,
+                            bool rigid_arm) {
+  if (!rigid_arm) return solveContinuousRiccati<kStateDim>(A, G, Q);
+  constexpr int kMoving = kPositionDim - kArmJointCount;
+  Eigen::Matrix<double, kStateDim, 2 * kMoving> E;
+  E.setZero();
+  E.block<kMoving, kMoving>(0, 0).setIdentity();
+  E.block<kMoving, kMoving>(kPositionDim, kMoving).setIdentity();
+  return E *
+         solveContinuousRiccati<2 * kMoving>(E.transpose() * A * E, E.transpose() * G * E,
+                                             E.transpose() * Q * E) *
+         E.transpose();
+}
+
+}  // namespace
 
 StateJacobian LqrWeights::stateWeight() const {
   StateVector diagonal;
@@ -46,7 +66,8 @@ LqrSolution designLqr(const ReducedDynamics& dynamics, const Vector3& arm,
   // R^-1 B^T
   const FeedbackGain R_inverse_Bt =
       weights.torqueWeight().cwiseInverse().asDiagonal() * B.transpose();
-  out.P = solveContinuousRiccati<kStateDim>(model.df_dx, B * R_inverse_Bt, weights.stateWeight());
+  out.P = solveForValue(model.df_dx, B * R_inverse_Bt, weights.stateWeight(),
+                        DynamicsConstants(dynamics.robot()).rigid_arm);
   out.K = -R_inverse_Bt * out.P;
   return out;
 }

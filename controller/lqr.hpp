@@ -36,7 +36,7 @@ struct LqrSolution {
   StateJacobian P;
 };
 
-/// LQR about the equilibrium with the arm at `arm` [rad].
+/// LQR about the equilibrium with the arm at `arm` [rad]; joints of a rigid arm take no part in it.
 /// @throw NumericalError if there is no such equilibrium or no stabilising gain.
 LqrSolution designLqr(const ReducedDynamics& dynamics, const Vector3& arm,
                       const LqrWeights& weights);

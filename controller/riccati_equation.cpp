@@ -89,6 +89,7 @@ Eigen::Matrix<double, N, N> solveContinuousRiccati(const Eigen::Matrix<double, N
       const Eigen::Matrix<double, N, N>&, const Eigen::Matrix<double, N, N>&);
 BALLBOT_INSTANTIATE(2)
 BALLBOT_INSTANTIATE(kStateDim)
+BALLBOT_INSTANTIATE(kStateDim - 2 * kArmJointCount)  // of a robot whose arm is rigid
 BALLBOT_INSTANTIATE(kStateDim + kWheelCount)  // with the wheels' shaping filters
 #undef BALLBOT_INSTANTIATE
 

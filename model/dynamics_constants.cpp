@@ -11,10 +11,12 @@ Matrix3 secondMoment(const Matrix3& inertia) {
 }  // namespace
 
 DynamicsConstants::DynamicsConstants(const RobotParameters& robot) {
+  rigid_arm = true;
   for (int i = 0; i < kArmJointCount; ++i) {
     const ArmLink& link = robot.arm[i];
     const BodyInertia body = i == kArmJointCount - 1 ? robot.lastLinkWithPayload() : link.inertia;
     arm[i] = {link.p_PJ_P, link.axis, body.p_LLcm_L, secondMoment(body.I_LLcm_L), body.mass};
+    rigid_arm = rigid_arm && body.mass == 0 && body.I_LLcm_L.isZero(0);
   }
   p_A3E = robot.p_A3E;
   R_A3E = robot.R_A3E;

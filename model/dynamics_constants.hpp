@@ -18,6 +18,9 @@ struct DynamicsConstants {
     double mass;
   };
   std::array<Link, kArmJointCount> arm;  ///< the last one with its payload
+  /// The arm's links have neither mass nor inertia: its joints have no equations of motion, and
+  /// stay as they are.
+  bool rigid_arm;
   Vector3 p_A3E;
   Matrix3 R_A3E;
 

@@ -1,5 +1,6 @@
 #include "model/dynamics_lanes.hpp"
 #include "model/end_effector.hpp"
+#include "model/inverse_mass.hpp"
 #include "model/reduced_dynamics.hpp"
 #include "model/residual_derivatives.hpp"
 
@@ -41,11 +42,11 @@ void linearizeDynamics(const DynamicsConstants& constants, const DynamicsLanes& 
   const DynamicsLanes::Pass& pass = lanes.pass;
   const auto torque = lanes.gathered<0, kJointCount>(tau);
   const auto force = lanes.gathered<0, 3>(lambda_W);
-  const Ldlt<Pack, kVelocityDim> mass(pass.massMatrix());
+  const InverseMass<Pack> inverse_mass(constants, pass);
   DynamicsLanes::Pass::Vec8 acceleration = pass.appliedForce(torque, force);
   if (moment_W) pass.addMoment(lanes.gathered<0, 3>(moment_W), acceleration);
   acceleration -= pass.nonlinearEffects();
-  mass.solveInPlace(acceleration);
+  inverse_mass.multiplyInPlace(acceleration);
   lanes.put<kVelocityDim>(acceleration.data(), out,
                           [](Linearization& o) { return o.f.data() + kPositionDim; });
 
@@ -53,13 +54,15 @@ void linearizeDynamics(const DynamicsConstants& constants, const DynamicsLanes& 
   if (moment_W) {
     residual.addMoment(lanes.gathered<0, 3>(moment_W));
     for (int k = 0; k < 3; ++k) {
-      mass.solveInPlace(residual.by_moment.col(k));
+      inverse_mass.multiplyInPlace(residual.by_moment.col(k));
       lanes.put<kVelocityDim>(&residual.by_moment(0, k), out, [k](Linearization& o) {
         return &o.df_dmoment(kPositionDim, k);
       });
     }
   }
-  for (int k = 0; k < Residual::kColumnCount; ++k) mass.solveInPlace(residual.columns.col(k));
+  for (int k = 0; k < Residual::kColumnCount; ++k) {
+    inverse_mass.multiplyInPlace(residual.columns.col(k));
+  }
   const auto column = [&](int k, auto&& address) {
     lanes.put<kVelocityDim>(&residual.columns(0, k), out, address);
   };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "model/ldlt.hpp"
 #include "model/newton_euler.hpp"
 #include "model/pack.hpp"
 

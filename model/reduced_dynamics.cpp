@@ -9,6 +9,7 @@
 #include "model/dynamics_lanes.hpp"
 #include "model/end_effector.hpp"
 #include "model/frames.hpp"
+#include "model/inverse_mass.hpp"
 #include "model/newton_euler.hpp"
 #include "model/omniwheel_kinematics.hpp"
 
@@ -65,7 +66,7 @@ void ReducedDynamics::derivatives(int count, const StateVector* x, const JointVe
         pass.appliedForce(lanes.gathered<0, kJointCount>(tau), lanes.gathered<0, 3>(lambda_W));
     if (moment_W) pass.addMoment(lanes.gathered<0, 3>(moment_W), force);
     rate.tail<kVelocityDim>() = force - pass.nonlinearEffects();
-    Ldlt<Pack, kVelocityDim>(pass.massMatrix()).solveInPlace(rate.tail<kVelocityDim>());
+    InverseMass<Pack>(*constants_, pass).multiplyInPlace(rate.tail<kVelocityDim>());
     lanes.put<kStateDim>(rate.data(), dx, [](StateVector& out) { return out.data(); });
   }
 }

@@ -53,13 +53,7 @@ const std::vector<PaperExperiment>& paperExperiments() {
        "The same with base and arm controlled apart",
        "With an MPC for the base alone and inverse kinematics with joint PID for the arm, the ball "
        "drifts.",
-       "Neither part knows of the other or of the payload.",
-       {"rms_ball_excursion_m", "largest_ball_excursion_m", "time_of_fall_s", "largest_tilt_deg"},
-       {"ee", "ball", "tilt"}},
-      {"decoupled_drift",
-       "Base and arm controlled apart, empty-handed",
-       "Controlled apart, the ball drifts as the arm reaches out.",
-       "The first two reaches; with the payload this controller falls.",
+       "Both parts know of the payload, but the base not of where the arm is; weights tuned for it.",
        {"rms_ball_excursion_m", "largest_ball_excursion_m", "rms_ee_tracking_error_m",
         "largest_tilt_deg"},
        {"ee", "ball", "tilt"}},
@@ -97,20 +91,10 @@ std::vector<Comparison> compareExperiments(const std::map<std::string, RunResult
   };
   with("whole_body_sequence", "whole_body_sequence_decoupled", [](const RunResult& whole, const RunResult& apart) {
     const double rms = metricOf(whole, "rms_ball_excursion_m"), other = metricOf(apart, "rms_ball_excursion_m");
-    return Comparison{"Controlled apart, the robot falls or its ball strays five times as far as the whole body's",
-                      apart.fell ? fmt::format("apart it falls at {:.1f} s; whole body {:.3f} m rms", toSeconds(apart.end), rms)
-                                 : fmt::format("{:.3f} m rms against {:.3f} m", other, rms),
-                      !whole.fell && (apart.fell || other >= 5 * rms)};
+    return Comparison{"Controlled apart, the ball strays at least twice as far as the whole body's",
+                      fmt::format("{:.3f} m rms against {:.3f} m", other, rms),
+                      !whole.fell && !apart.fell && other >= 2 * rms};
   });
-  with("whole_body_sequence", "decoupled_drift",
-       [](const RunResult& whole, const RunResult& apart) {
-         const double rms = metricOf(whole, "rms_ball_excursion_m"),
-                      other = metricOf(apart, "rms_ball_excursion_m");
-         return Comparison{
-             "Controlled apart, the ball drifts even with nothing in the hand: five times as far "
-             "at least",
-             fmt::format("{:.3f} m rms against {:.3f} m", other, rms), other >= 5 * rms};
-       });
   with("disturbance_ball", "disturbance_ee", [](const RunResult& ball, const RunResult& ee) {
     const double still = metricOf(ball, "largest_push_arm_excursion_rad");
     const double busy = metricOf(ee, "largest_push_arm_excursion_rad");

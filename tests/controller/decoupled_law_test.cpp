@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include <Eigen/LU>
 #include <gmock/gmock.h>
 
-#include "controller/frozen_arm.hpp"
+#include "controller/rigid_arm.hpp"
 #include "controller/law_factory.hpp"
 #include "core/error.hpp"
 #include "tests/controller/support/allocation_counter.hpp"
+#include "tests/controller/support/closed_loop.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
@@ -19,47 +19,6 @@ using ::testing::HasSubstr;
 constexpr double kStep = 0.014;
 
 SimTime at(double t) { return kSimStart + durationFromSeconds(t); }
-
-/// Torques of the arm under which it does not accelerate, and what base and ball do then.
-VelocityVector accelerationWithTheArmHeld(const ReducedDynamics& dynamics, const PositionVector& q,
-                                          const VelocityVector& nu, const Vector3& wheels) {
-  JointVector tau = JointVector::Zero();
-  tau.head<3>() = wheels;
-  const VelocityVector free = dynamics.acceleration(q, nu, tau, Vector3::Zero());
-  Matrix3 mobility;
-  for (int i = 0; i < 3; ++i) {
-    mobility.col(i) = (dynamics.acceleration(q, nu, tau + JointVector::Unit(3 + i), Vector3::Zero()) - free).tail<3>();
-  }
-  tau.tail<3>() = -mobility.inverse() * free.tail<3>();
-  return dynamics.acceleration(q, nu, tau, Vector3::Zero());
-}
-
-TEST(FrozenArm, BaseAndBallAccelerateAsThoseOfARobotWhoseArmIsHeld) {
-  const RobotParameters robot = exampleRobot();
-  const Vector3 arm(0.4, -0.9, 1.7);
-  const ReducedDynamics whole(robot), frozen(withFrozenArm(robot, arm));
-  for (int k = 0; k < 20; ++k) {
-    const RandomCase c = randomCase(k);
-    PositionVector q = c.x.head<kPositionDim>();
-    q.tail<3>() = arm;
-    const VelocityVector rest = VelocityVector::Zero();
-    JointVector wheels = JointVector::Zero();
-    wheels.head<3>() = c.tau.head<3>();
-    const VelocityVector expected = accelerationWithTheArmHeld(whole, q, rest, c.tau.head<3>());
-    const VelocityVector got = frozen.acceleration(q, rest, wheels, Vector3::Zero());
-    EXPECT_LT((got - expected).head<5>().norm(), 1e-8 * expected.head<5>().norm()) << k;
-  }
-}
-
-TEST(FrozenArm, KeepsMassAndEquilibriumWithWhatIsInTheHand) {
-  RobotParameters robot = exampleRobot();
-  robot.payload_mass = 1;
-  const double mass = robot.totalMass();
-  const StateVector rest = findEquilibrium(ReducedDynamics(robot), robot.nominal_arm).x;
-  const RobotParameters frozen = withFrozenArm(robot, robot.nominal_arm);
-  EXPECT_NEAR(frozen.totalMass(), mass, 1e-8);
-  EXPECT_NEAR(findEquilibrium(ReducedDynamics(frozen), robot.nominal_arm).x[kPitch], rest[kPitch], 1e-9);
-}
 
 Tasks asking(const ReducedDynamics& dynamics, const StateVector& x, const Vector3& by) {
   Tasks tasks;
@@ -147,6 +106,58 @@ TEST(DecoupledLaw, TheBaseDoesNotNoticeWhatTheArmDoes) {
   EXPECT_EQ(still.torque.head<3>(), moving.torque.head<3>());
   EXPECT_TRUE(moving.feedback.topRows<3>().middleCols<3>(kArm1).isZero(0));
   EXPECT_GT(still.torque.head<3>().norm(), 0.01);
+}
+
+/// The ball's way on a robot whose arm is held, from beside its place and with some speed.
+std::vector<ClosedLoopSample> withTheArmHeld(ControlLaw& law) {
+  const RobotParameters held = withRigidArm(exampleRobot(), exampleRobot().nominal_arm);
+  StateVector x = findEquilibrium(ReducedDynamics(held), held.nominal_arm).x;
+  x[kBallY] = 0.15;
+  x[kPositionDim + kBallVx] = 0.2;
+  ClosedLoopOptions options;
+  options.noise = 0;
+  TrackerConfig tracker;
+  tracker.torque_limit.setConstant(held.wheel_torque_limit);
+  return runClosedLoop(law, tracker, held, x, 4, options);
+}
+
+// The arm that neither moves nor is asked to leaves one problem, and both laws must solve it.
+TEST(DecoupledLaw, WithTheArmHeldTheBallMovesAsWithTheWholeBody) {
+  std::string text = kConfig;
+  text.replace(text.find("ee_position: {weight: 200}"), 26, "arm_position: {weight: 1e5}");
+  const auto apart = decoupled(exampleRobot(), text);
+  text.replace(text.find("decoupled"), 9, "mpc");
+  const auto whole = decoupled(exampleRobot(), text);
+  const auto a = withTheArmHeld(*apart), b = withTheArmHeld(*whole);
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_NEAR(a.back().time, 4, 1e-3) << "fell";
+  double between = 0, farthest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    between = std::max(between, (a[i].x - b[i].x).head<2>().norm());
+    farthest = std::max(farthest, a[i].x.head<2>().norm());
+  }
+  EXPECT_GT(farthest, 0.15);
+  EXPECT_LT(between, 2e-3);  // the weight that holds the whole body's arm is finite
+  EXPECT_LT(a.back().x.head<2>().norm(), 0.02);
+}
+
+TEST(DecoupledLaw, ItsArmIsHeldByItsGravityTorqueWhereverItStands) {
+  RobotParameters robot = exampleRobot();
+  robot.payload_mass = 1;
+  const auto law = decoupled(robot);
+  const ReducedDynamics dynamics(robot);
+  const Equilibrium rest = findEquilibrium(dynamics, robot.nominal_arm);
+  PolicySample out;
+  law->sample(kSimStart, out);  // before the first plan
+  EXPECT_TRUE(out.torque.tail<3>().isApprox(rest.tau.tail<3>(), 1e-12));
+  StateVector x = rest.x;
+  x.segment<3>(kArm1) << 0.3, -0.2, 1.8;
+  law->plan(kSimStart, x, JointVector::Zero());
+  law->activatePlan();
+  law->sample(kSimStart, out);
+  const VelocityVector h = dynamics.nonlinearEffects(x.head<kPositionDim>(), VelocityVector::Zero());
+  EXPECT_EQ(out.joint_position.tail<3>(), x.segment<3>(kArm1));
+  EXPECT_TRUE(out.torque.tail<3>().isApprox(h.tail<3>(), 1e-12));
 }
 
 TEST(DecoupledLaw, TheArmNoticesTheBaseOnlyWhereAskedTo) {
