@@ -50,11 +50,10 @@ std::unique_ptr<ControlLaw> makeControlLaw(ConfigReader& in, const RobotParamete
   try {
     return makeLaw(in, robot);
   } catch (const NumericalError& e) {
-    throw InputError(
-        fmt::format("{}: no such law balances this robot: {}. Masses and lengths are in "
-                    "robot.urdf, the pose is "
-                    "robot.nominal_arm_rad or that of the set point, weights are in lqr and mpc",
-                    in.at("kind"), e.what()));
+    throw InputError(fmt::format(
+        "{}: no such law balances this robot: {}. Masses and lengths (in m) are in robot.urdf, the "
+        "pose is robot.nominal_arm_rad or that of the set point, weights are in lqr and mpc",
+        in.at("kind"), e.what()));
   }
 }
 

@@ -105,7 +105,7 @@ Equilibrium findEquilibrium(const ReducedDynamics& dynamics, const Vector3& arm)
   if (!(up.z() >= std::cos(limit))) {
     throw NumericalError(fmt::format(
         "no equilibrium within 30 degrees for the arm at ({:.3f}, {:.3f}, {:.3f}) rad: the centre "
-        "of mass is {:.1f} degrees off the axis through the ball. Is a length of the URDF in mm?",
+        "of mass is {:.1f} degrees off the axis through the ball",
         arm[0], arm[1], arm[2], std::acos(up.z()) / limit * 30));
   }
   found.x[kPitch] = std::asin(-up.x());

@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"CentreOfMassFarOff", {"--set", "robot.nominal_arm_rad=[0,2,0]", "--set", "robot.payload_mass_kg=40"},
                  "no equilibrium within 30 degrees for the arm at (0.000, 2.000, 0.000) rad"},
         BadInput{"BlindWeights", {"--set", "controller.lqr.weights={ball_position: 1e-300}"},
-                 "controller.kind: no such law balances this robot: Riccati"},
+                 "kind: no such law balances this robot: Riccati"},
         BadInput{"UnknownEstimator", {"--set", "estimator.kind=oracle"}, "kind is 'oracle'"},
         BadInput{"UnknownLaw", {"--set", "controller.kind=magic"}, "kind is 'magic'"}),
     [](const auto& test) { return test.param.name; });
