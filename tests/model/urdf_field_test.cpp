@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"MomentLeftOut", "link name=\"arm_2\"", "ixx=\"0.01933\"", "",
                 "<inertia> of link 'arm_2': has no ixx"},
         Refusal{"MisspeltAttribute", "arm_3_joint", "upper=", "uper=", "did you mean upper?"},
-        Refusal{"MisspeltElement", "link name=\"imu\"", "<visual>", "<inerial/><visual>",
+        Refusal{"MisspeltElement", "", "<link name=\"imu\">", "<link name=\"imu\"><inerial/>",
                 "<inerial> of link 'imu': would be ignored; did you mean <inertial>?"},
         Refusal{"MassOutsideInertial", "", "<link name=\"imu\">",
                 "<link name=\"imu\"><mass value=\"1\"/>", "put it in <inertial>"},
