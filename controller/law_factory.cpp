@@ -1,10 +1,13 @@
 #include "controller/law_factory.hpp"
 
+#include <fmt/format.h>
+
 #include "controller/background_mpc_law.hpp"
 #include "controller/decoupled_law.hpp"
 #include "controller/lqr_law.hpp"
 #include "controller/mpc_law.hpp"
 #include "core/config_reader.hpp"
+#include "core/error.hpp"
 
 namespace ballbot {
 namespace {
@@ -14,9 +17,7 @@ LqrLawConfig readLqr(ConfigReader& in, const RobotParameters& robot) {
   return LqrLawConfig::read(lqr, robot);
 }
 
-}  // namespace
-
-std::unique_ptr<ControlLaw> makeControlLaw(ConfigReader& in, const RobotParameters& robot) {
+std::unique_ptr<ControlLaw> makeLaw(ConfigReader& in, const RobotParameters& robot) {
   enum class Kind { kLqr, kMpc, kDecoupled };
   const Kind kind = in.choice<Kind>(
       "kind", {{"lqr", Kind::kLqr}, {"mpc", Kind::kMpc}, {"decoupled", Kind::kDecoupled}});
@@ -41,6 +42,19 @@ std::unique_ptr<ControlLaw> makeControlLaw(ConfigReader& in, const RobotParamete
     }
   }
   return nullptr;
+}
+
+}  // namespace
+
+std::unique_ptr<ControlLaw> makeControlLaw(ConfigReader& in, const RobotParameters& robot) {
+  try {
+    return makeLaw(in, robot);
+  } catch (const NumericalError& e) {
+    throw InputError(fmt::format(
+        "{}: no such law balances this robot: {}. Masses and lengths (in m) are in robot.urdf, the "
+        "pose is robot.nominal_arm_rad or that of the set point, weights are in lqr and mpc",
+        in.at("kind"), e.what()));
+  }
 }
 
 }  // namespace ballbot

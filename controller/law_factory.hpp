@@ -16,7 +16,7 @@ class ConfigReader;
 ///
 /// Reads these two keys of `in` and leaves the rest, and finish(), to the caller. Mappings of other
 /// kinds are passed over, so that one file can hold several laws to choose from.
-/// @throw InputError for what cannot be read, NumericalError for what cannot be balanced.
+/// @throw InputError for what cannot be read or cannot be balanced.
 std::unique_ptr<ControlLaw> makeControlLaw(ConfigReader& in, const RobotParameters& robot);
 
 }  // namespace ballbot

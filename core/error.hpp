@@ -69,10 +69,11 @@ class CallOrderError : public Error {
   std::string state_, call_;
 };
 
-/// Numbers went wrong: NaN, a matrix that should be positive definite and is not, divergence.
-class NumericalError : public Error {
+/// Numbers went wrong: NaN, a matrix that should be positive definite and is not, no equilibrium,
+/// divergence. The same input gives the same numbers, so it is the input that cannot be used.
+class NumericalError : public InputError {
  public:
-  explicit NumericalError(const std::string& text) : Error(ExitCode::kLostParticipant, text) {}
+  explicit NumericalError(const std::string& text) : InputError(text) {}
 };
 
 }  // namespace ballbot

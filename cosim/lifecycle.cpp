@@ -133,8 +133,9 @@ void Lifecycle::doStep(SimTime now, SimDuration step, const ActuatorCommand& com
     participant_.doStep(now, step, command);
     const std::string bad_sensor = firstNonFinite(participant_.sensors());
     if (!bad_sensor.empty()) {
-      throw NumericalError(fmt::format("{}: after the step to {}: {}", name(),
-                                       ballbot::toText(now + step), bad_sensor));
+      // Our own plant finds its NaN before it answers.
+      throw LostParticipantError(name(), fmt::format("{}: after the step to {}: {}", name(),
+                                                     ballbot::toText(now + step), bad_sensor));
     }
   });
   time_ = now + step;

@@ -52,7 +52,7 @@ class Lifecycle final : public Participant {
   void enterInitializationMode(SimTime start) override;
   void exitInitializationMode() override;
   /// @throw CallOrderError also if `now` is not the time reached or `step` is not positive;
-  ///        NumericalError if the command, or a sensor value after the step, is not finite.
+  ///        NumericalError if the command, LostParticipantError if a sensor, is not finite.
   void doStep(SimTime now, SimDuration step, const ActuatorCommand& command) override;
   void terminate() override;
   void reset() override;

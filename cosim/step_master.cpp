@@ -89,7 +89,8 @@ void StepMaster::processEvent() {
   controller_.onSensors(time_, participant_->sensors(), calendar_.dueAt(time_), control_);
   const std::string bad = firstNonFinite(control_.command);
   if (!bad.empty()) {
-    throw NumericalError(
+    throw LostParticipantError(
+        controller_.name(),
         fmt::format("{}: command at {}: {}", controller_.name(), toText(time_), bad));
   }
   const std::optional<TruthFrame> truth = participant_->truth();

@@ -53,7 +53,7 @@ class StepMaster {
 
   enum class End { kDuration, kObserver };
   /// From the first event to the last, then ends the participant's session.
-  /// @throw whatever participant and recorder throw; NumericalError if the command is not finite;
+  /// @throw whatever participant and recorder throw; LostParticipantError for a NaN command;
   ///        InterruptedError if the stop flag was set.
   End run();
 

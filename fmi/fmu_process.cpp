@@ -161,7 +161,7 @@ StateBlob FmuProcess::ask(const BlobWriter& request, const char* what) {
   if (status == FmuReply::kInputError)
     throw InputError(fmt::format("FMU '{}': {}", use_.name, text));
   if (status == FmuReply::kNumericalError)
-    throw NumericalError(fmt::format("FMU '{}': {}", use_.name, text));
+    throw LostParticipantError(use_.name, fmt::format("FMU '{}': {}", use_.name, text));
   outputs_ = in.getVector();
   if (!use_.digest.empty()) {
     // Two signed halves, low and high, at the end of the row.

@@ -24,7 +24,7 @@ struct ArmLink {
   Vector3 p_PJ_P = Vector3::Zero();  ///< joint origin in the parent's frame (base: from K) [m]
   Vector3 axis = Vector3::UnitZ();   ///< unit vector, same in parent and link
   BodyInertia inertia;               ///< origin at the joint
-  double lower_limit = 0, upper_limit = 0;  ///< [rad]
+  double lower_limit = 0, upper_limit = 0;  ///< [rad]; see limits.hpp
 };
 
 /// Rigid-body parameters of the robot: what plant, estimator and controller agree on.

@@ -1,5 +1,7 @@
 #include "model/robot_reader.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -8,18 +10,37 @@
 #include "core/angle.hpp"
 #include "core/config_reader.hpp"
 #include "core/error.hpp"
+#include "model/drive_agreement.hpp"
+#include "model/limits.hpp"
 #include "model/urdf_loader.hpp"
 
 namespace ballbot {
 namespace {
 
 constexpr double kSameLength_m = 1e-6;
+constexpr double kLeastApart_deg = 5;  ///< wheels closer than this would be one inside the other
+
+/// Two wheels in one direction leave the ball a way that no wheel drives.
+void checkApart(const std::array<double, kWheelCount>& azimuth, const std::string& where) {
+  for (int i = 0; i < kWheelCount; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const double apart_deg =
+          std::abs(std::remainder(azimuth[i] - azimuth[j], kTwoPi)) * kDegPerRad;
+      if (apart_deg >= kLeastApart_deg) continue;
+      throw InputError(
+          fmt::format("{} puts wheels {} and {} {:.3g} degrees apart, must be at least "
+                      "{}: three wheels drive the ball in three ways",
+                      where, j + 1, i + 1, apart_deg, kLeastApart_deg));
+    }
+  }
+}
 
 void readWheels(ConfigReader in, RobotParameters::Wheels& wheels) {
   wheels.radius = in.number("radius_m", {kTiny, kInf});
   wheels.contact_zenith = kRadPerDeg * in.number("contact_zenith_deg", {1, 89});
   wheels.azimuth = in.numbers<kWheelCount>("azimuth_deg", {-360, 360});
   for (double& azimuth : wheels.azimuth) azimuth *= kRadPerDeg;
+  checkApart(wheels.azimuth, in.at("azimuth_deg"));
   in.finish();
 }
 
@@ -59,7 +80,7 @@ RobotParameters readRobot(ConfigReader& in) {
   const UrdfRobot urdf = loadUrdf(path);
   RobotParameters robot = urdf.parameters;
 
-  robot.gravity = in.number("gravity_m_per_s2", {0, 100});
+  robot.gravity = in.number("gravity_m_per_s2", {0.1, 100});
   readWheels(in.child("wheels"), robot.wheels);
   checkWheelPlacement(urdf, robot, in.at("wheels"));
 
@@ -82,10 +103,13 @@ RobotParameters readRobot(ConfigReader& in) {
     }
     robot.nominal_arm[i] = arm[i];
   }
-  robot.wheel_torque_limit = in.number("wheel_torque_limit_Nm", {kTiny, kInf});
-  robot.arm_torque_limit = in.number("arm_torque_limit_Nm", {kTiny, kInf});
+  const auto torqueLimit = [&](const char* key) {
+    return std::min(in.number(key, {kTiny, kInf}), kUnlimited);
+  };
+  robot.wheel_torque_limit = torqueLimit("wheel_torque_limit_Nm");
+  robot.arm_torque_limit = torqueLimit("arm_torque_limit_Nm");
 
-  in.raw("actuators");
+  if (in.has("actuators")) checkDriveAgreement(urdf, readActuators(in), in);
   in.raw("sensors");
   in.finish();
   return robot;

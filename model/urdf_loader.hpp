@@ -2,8 +2,9 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
-#include "model/robot_parameters.hpp"
+#include "model/urdf_description.hpp"
 
 namespace ballbot {
 
@@ -13,14 +14,16 @@ struct UrdfRobot {
   RobotParameters parameters;
   std::array<Vector3, kWheelCount> wheel_centre;  ///< from K, in B [m]
   std::array<Vector3, kWheelCount> wheel_axle;    ///< unit vectors, in B
+  std::array<UrdfDrive, kJointCount> drives;
+  std::vector<std::string> notes;  ///< what is allowed and most likely not meant
 };
 
 /// Reads a robot with the links base (the root, origin at the ball's centre), ball, wheel_1 to
 /// wheel_3, arm_1 to arm_3, end_effector and imu. Every other link must hang on a fixed joint; its
-/// mass counts to the body it is fixed to. The ball's radius is that of its collision sphere. The
-/// same text in the same file is parsed once in a process.
-/// @throw InputError naming file and link: not a URDF, a missing link or inertia, a joint of an
-///        unknown or unsuitable type, an inertia no rigid body can have.
+/// mass, and that of end_effector and imu, counts to the body it is fixed to. The ball's radius is
+/// that of its collision sphere. The same text in the same file is parsed once in a process.
+/// docs/robot.md says more.
+/// @throw InputError naming file, line and link or joint.
 UrdfRobot loadUrdf(const std::string& path);
 
 }  // namespace ballbot

@@ -1,158 +1,175 @@
 #include "model/urdf_tree.hpp"
 
+#include <utility>
 
 #include <Eigen/Eigenvalues>
-#include <console_bridge/console.h>
 #include <fmt/format.h>
-#include <urdf_parser/urdf_parser.h>
 
 #include "core/error.hpp"
 
 namespace ballbot {
 namespace {
 
-/// urdfdom reports by log and a null pointer; this keeps what it said for the error message.
-class CapturedLog : public console_bridge::OutputHandler {
- public:
-  CapturedLog() { console_bridge::useOutputHandler(this); }
-  ~CapturedLog() override { console_bridge::restorePreviousOutputHandler(); }
-  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
-    if (!text_.empty()) text_ += "; ";
-    text_ += text;
-  }
-  const std::string& text() const { return text_; }
+/// Principal moments of inertia, ascending [kg m^2].
+Vector3 principalMoments(const BodyInertia& body) {
+  return Eigen::SelfAdjointEigenSolver<Matrix3>(body.I_LLcm_L, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
 
- private:
-  std::string text_;
-};
-
-BodyInertia readInertial(const urdf::Inertial& in) {
-  const Eigen::Isometry3d X = toTransform(in.origin);
-  BodyInertia body;
-  body.mass = in.mass;
-  body.p_LLcm_L = X.translation();
-  Matrix3 I;
-  I << in.ixx, in.ixy, in.ixz, in.ixy, in.iyy, in.iyz, in.ixz, in.iyz, in.izz;
-  body.I_LLcm_L = X.linear() * I * X.linear().transpose();
-  return body;
+std::string momentsText(const Vector3& moments) {
+  return fmt::format("{:.6g}, {:.6g}, {:.6g} kg m^2", moments[0], moments[1], moments[2]);
 }
 
 }  // namespace
 
-Eigen::Isometry3d toTransform(const urdf::Pose& pose) {
-  const urdf::Rotation& r = pose.rotation;
-  Eigen::Isometry3d X(Eigen::Quaterniond(r.w, r.x, r.y, r.z).normalized());
-  X.translation() = Vector3(pose.position.x, pose.position.y, pose.position.z);
-  return X;
+UrdfTree::UrdfTree(UrdfDescription description) : description_(std::move(description)) {
+  nameLinks();
+  hangLinks();
+  orderLinks();
 }
 
-const char* jointTypeName(const urdf::Joint& joint) {
-  switch (joint.type) {
-    case urdf::Joint::REVOLUTE:
-      return "revolute";
-    case urdf::Joint::CONTINUOUS:
-      return "continuous";
-    case urdf::Joint::PRISMATIC:
-      return "prismatic";
-    case urdf::Joint::FLOATING:
-      return "floating";
-    case urdf::Joint::PLANAR:
-      return "planar";
-    case urdf::Joint::FIXED:
-      return "fixed";
-    default:
-      return "unknown";
+void UrdfTree::nameLinks() {
+  for (std::size_t i = 0; i < description_.links.size(); ++i) {
+    const UrdfLink& link = description_.links[i];
+    if (!index_.emplace(link.name, i).second) {
+      fail(link.line, fmt::format("a second link has the name '{}'; the first is in line {}",
+                                  link.name, description_.links[index_[link.name]].line));
+    }
   }
 }
 
-UrdfTree::UrdfTree(const std::string& path, const std::string& text) : path_(path) {
-  CapturedLog log;
-  try {
-    model_ = urdf::parseURDF(text);
-  } catch (const std::exception& e) {
-    fail(fmt::format("is not a valid URDF: {}", e.what()));
-  }
-  if (!model_) {
-    fail(fmt::format("is not a valid URDF: {}", log.text().empty() ? "no <robot>" : log.text()));
+void UrdfTree::hangLinks() {
+  parent_joint_.assign(description_.links.size(), nullptr);
+  std::map<std::string, int> line_of_joint;
+  for (const UrdfJoint& joint : description_.joints) {
+    const auto [first, is_new] = line_of_joint.emplace(joint.name, joint.line);
+    if (!is_new) {
+      fail(joint.line, fmt::format("a second joint has the name '{}'; the first is in line {}",
+                                   joint.name, first->second));
+    }
+    for (const std::string& end : {joint.parent, joint.child}) {
+      if (index_.count(end)) continue;
+      fail(joint.line, fmt::format("joint '{}' names the link '{}', which is not in the file",
+                                   joint.name, end));
+    }
+    const UrdfJoint*& above = parent_joint_[indexOf(joint.child)];
+    if (above) {
+      fail(joint.line, fmt::format("link '{}' hangs on joint '{}' already (line {}), so '{}' "
+                                   "would close a loop; the robot must be a tree",
+                                   joint.child, above->name, above->line, joint.name));
+    }
+    above = &joint;
   }
 }
 
-void UrdfTree::fail(const std::string& what) const {
-  throw InputError(fmt::format("{}: {}", path_, what));
-}
-
-const urdf::Link& UrdfTree::link(const std::string& name) const {
-  const urdf::LinkConstSharedPtr found = model_->getLink(name);
-  if (!found) {
-    fail(fmt::format(
-        "link '{}' is missing; the robot needs the links base, ball, wheel_1, wheel_2, wheel_3, "
-        "arm_1, arm_2, arm_3, end_effector and imu",
-        name));
+void UrdfTree::orderLinks() {
+  std::vector<std::vector<std::size_t>> children(description_.links.size());
+  for (std::size_t i = 0; i < description_.links.size(); ++i) {
+    if (parent_joint_[i]) {
+      children[indexOf(parent_joint_[i]->parent)].push_back(i);
+    } else if (order_.empty()) {
+      order_.push_back(i);
+    } else {
+      fail(description_.links[i].line,
+           fmt::format("links '{}' and '{}' both hang on no joint; one must be the root of all",
+                       description_.links[order_.front()].name, description_.links[i].name));
+    }
   }
-  return *found;
+  for (std::size_t next = 0; next < order_.size(); ++next) {
+    const auto& below = children[order_[next]];
+    order_.insert(order_.end(), below.begin(), below.end());
+  }
+  if (order_.size() == description_.links.size()) return;
+  std::vector<bool> reached(description_.links.size(), false);
+  for (const std::size_t i : order_) reached[i] = true;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    if (reached[i]) continue;
+    fail(description_.links[i].line,
+         fmt::format("link '{}' is in a loop of joints; the robot must be a tree",
+                     description_.links[i].name));
+  }
 }
 
-const urdf::Joint& UrdfTree::jointBetween(const std::string& parent,
-                                          const std::string& child) const {
+std::size_t UrdfTree::indexOf(const std::string& link) const {
+  const auto found = index_.find(link);
+  if (found == index_.end()) {
+    throw InputError(
+        fmt::format("{}: link '{}' is missing; the robot needs the links base, ball, wheel_1, "
+                    "wheel_2, wheel_3, arm_1, arm_2, arm_3, end_effector and imu",
+                    file(), link));
+  }
+  return found->second;
+}
+
+const UrdfJoint& UrdfTree::jointBetween(const std::string& parent, const std::string& child) const {
   link(parent);
-  const urdf::JointSharedPtr& joint = link(child).parent_joint;
-  if (!joint || joint->parent_link_name != parent) {
-    fail(fmt::format(
-        "link '{}' must hang on '{}', but {}", child, parent,
-        joint ? fmt::format("hangs on '{}'", joint->parent_link_name) : "is the root of the tree"));
+  const UrdfJoint* joint = parent_joint_[indexOf(child)];
+  if (!joint || joint->parent != parent) {
+    fail(joint ? joint->line : link(child).line,
+         fmt::format(
+             "link '{}' must hang on '{}', but {}", child, parent,
+             joint ? fmt::format("hangs on '{}'", joint->parent) : "is the root of the tree"));
   }
   return *joint;
 }
 
-BodyInertia UrdfTree::inertia(const std::string& name, const std::set<std::string>& named) const {
-  const BodyInertia body = lumped(link(name), named);
-  if (!(body.mass > 0)) fail(fmt::format("link '{}' has no <inertial> with a mass", name));
-  checkRigid(name, body);
-  return body;
-}
-
-BodyInertia UrdfTree::lumped(const urdf::Link& link, const std::set<std::string>& named) const {
-  BodyInertia sum;
-  if (link.inertial) {
-    sum = readInertial(*link.inertial);
-    checkRigid(link.name, sum);
+void UrdfTree::merge(const std::set<std::string>& bodies) {
+  const std::size_t count = description_.links.size();
+  body_.resize(count);
+  composite_.assign(count, false);
+  for (std::size_t i = 0; i < count; ++i) {
+    body_[i] = description_.links[i].inertial.value_or(BodyInertia{});
   }
-  for (const urdf::JointSharedPtr& joint : link.child_joints) {
-    if (named.count(joint->child_link_name)) continue;
-    if (joint->type != urdf::Joint::FIXED) {
-      fail(
-          fmt::format("link '{}' hangs on joint '{}' of type {}; only ball, wheels and arm move, "
-                      "so it must be fixed",
-                      joint->child_link_name, joint->name, jointTypeName(*joint)));
+  // Children before parents, so that each is complete when it is added.
+  for (auto at = order_.rbegin(); at != order_.rend(); ++at) {
+    const UrdfJoint* joint = parent_joint_[*at];
+    const std::string& name = description_.links[*at].name;
+    if (!joint || bodies.count(name)) continue;
+    if (joint->type != UrdfJointType::kFixed) {
+      fail(joint->line, fmt::format("link '{}' hangs on joint '{}' of type {}; only ball, wheels "
+                                    "and arm move, so it must be fixed",
+                                    name, joint->name, toText(joint->type)));
     }
-    BodyInertia part = lumped(*model_->getLink(joint->child_link_name), named);
-    const Eigen::Isometry3d X = toTransform(joint->parent_to_joint_origin_transform);
-    part.p_LLcm_L = X.linear() * part.p_LLcm_L;
-    part.I_LLcm_L = X.linear() * part.I_LLcm_L * X.linear().transpose();
-    sum = composed(sum, part, X.translation());
+    BodyInertia part = body_[*at];
+    if (part.mass == 0) continue;  // a frame
+    part.p_LLcm_L = joint->X_PC.linear() * part.p_LLcm_L;
+    part.I_LLcm_L = joint->X_PC.linear() * part.I_LLcm_L * joint->X_PC.linear().transpose();
+    const std::size_t parent = indexOf(joint->parent);
+    body_[parent] = composed(body_[parent], part, joint->X_PC.translation());
+    composite_[parent] = true;
   }
-  return sum;
 }
 
-void UrdfTree::checkRigid(const std::string& name, const BodyInertia& body) const {
-  if (!(body.mass > 0))
-    fail(fmt::format("link '{}': mass is {} kg, must be more than 0", name, body.mass));
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(body.I_LLcm_L, Eigen::EigenvaluesOnly);
-  const Vector3 principal = solver.eigenvalues();  // ascending
+const BodyInertia& UrdfTree::body(const std::string& name) const {
+  const std::size_t i = indexOf(name);
+  checkRigid(i);
+  return body_[i];
+}
+
+// After merging: a link that is a frame only, a point mass or a thin rod is no body by itself, but
+// may well be part of one.
+void UrdfTree::checkRigid(std::size_t i) const {
+  const UrdfLink& link = description_.links[i];
+  const BodyInertia& body = body_[i];
+  const std::string whole =
+      fmt::format("link '{}'{}", link.name, composite_[i] ? " with all that is fixed to it" : "");
+  if (!(body.mass > 0)) fail(link.line, whole + " has no mass, must have some");
+  const Vector3 principal = principalMoments(body);
   if (!(principal[0] > 0)) {
-    fail(fmt::format(
-        "link '{}': inertia is not positive definite; its principal moments are {:.6g}, "
-        "{:.6g}, {:.6g} kg m^2",
-        name, principal[0], principal[1], principal[2]));
+    fail(link.line,
+         fmt::format("{}: inertia is not positive definite; its principal moments are {}", whole,
+                     momentsText(principal)));
   }
   // A thin disc reaches equality; the margin is for rounding only.
   if (principal[0] + principal[1] < principal[2] * (1 - 1e-9)) {
-    fail(
-        fmt::format("link '{}': no rigid body has this inertia: of its principal moments {:.6g}, "
-                    "{:.6g}, {:.6g} kg m^2 the largest exceeds the sum of the others",
-                    name, principal[0], principal[1], principal[2]));
+    fail(link.line, fmt::format("{}: no rigid body has this inertia: of its principal moments {} "
+                                "the largest exceeds the sum of the others",
+                                whole, momentsText(principal)));
   }
+}
+
+void UrdfTree::fail(int line, const std::string& what) const {
+  throw InputError(fmt::format("{}:{}: {}", description_.file, line, what));
 }
 
 }  // namespace ballbot

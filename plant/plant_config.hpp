@@ -21,7 +21,7 @@ class ConfigReader;
 enum class ActuatorLevel { kIdeal, kSeriesElastic };
 enum class ContactLevel { kRolling, kRollingWithSpinFriction, kCompliant };
 
-/// How true to the robot the plant is; each switch is independent of the others.
+/// How true to the robot the plant is; each switch can be changed alone.
 /// docs/fidelity.md says what each one adds.
 struct PlantFidelity {
   MultibodyStructure multibody = MultibodyStructure::kFull;
@@ -29,7 +29,7 @@ struct PlantFidelity {
   ContactLevel contact = ContactLevel::kRolling;
   bool noisy_sensors = true;
   bool encoder_quantisation = true;  ///< takes effect with noisy sensors
-  bool friction = true;
+  bool friction = true;              ///< takes effect with series elastic actuators
   bool saturation = true;
   bool speed_limit = true;
   bool transport_delay = true;

@@ -42,8 +42,8 @@ SeriesElasticActuator::Torques SeriesElasticActuator::torques(double since_tick,
     motor =
         std::clamp(motor, -torqueAtSpeed(p_, -motor_velocity), torqueAtSpeed(p_, motor_velocity));
   }
-  if (friction_) motor -= actuatorFriction(p_, motor_velocity);
   if (!spring_) return {motor, 0};
+  if (friction_) motor -= actuatorFriction(p_, motor_velocity);
   const double spring = p_.spring_stiffness * (m.rotor_angle - m.joint_angle) +
                         p_.spring_damping * (m.rotor_velocity - m.joint_velocity);
   return {spring, motor - spring};

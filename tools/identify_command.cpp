@@ -178,7 +178,7 @@ void addIdentifyCommand(CLI::App& program, ExitCode& result) {
       "  ballbot identify configs/hil/bench.yaml --drive 1 --figure wheel.svg \\\n"
       "    --scenario configs/scenarios/balance.yaml --out wheel.yaml\n"
       "  ballbot bode wheel.yaml\n"
-      "Exit codes: 0 fitted, 2 bad input, 3 the bench stopped or no fit,\n"
+      "Exit codes: 0 fitted, 2 bad input or no fit, 3 the bench stopped,\n"
       "130 interrupted, with the drives off.");
   command->callback([&result, a] { result = identifyOnBench(*a); });
 }

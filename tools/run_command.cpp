@@ -11,6 +11,7 @@
 #include "experiment/continue_run.hpp"
 #include "experiment/run_experiment.hpp"
 #include "experiment/run_record.hpp"
+#include "model/robot_notes.hpp"
 #include "tools/commands.hpp"
 #include "tools/interrupt.hpp"
 #include "tools/progress.hpp"
@@ -56,6 +57,10 @@ ExitCode runScenario(const RunArguments& arguments) {
   }
   const std::string file = from ? RunFolder::open(from->run).scenarioFile() : arguments.scenario;
   const Scenario scenario = loadScenario(file, arguments.overrides, arguments.seed);
+
+  for (const std::string& note : robotNotes(scenario.section("robot"))) {
+    fmt::print(stderr, "note: {}\n", note);
+  }
 
   RunOptions options;
   if (from) options.start = startFrom(*from, scenario, arguments.quiet);

@@ -141,7 +141,7 @@ TEST(Lifecycle, ACommandThatIsNotFiniteNeverReachesTheParticipant) {
 TEST(Lifecycle, ASensorValueThatIsNotFiniteIsAFailureOfTheParticipant) {
   Brought brought(S::kStep);
   brought.spring.measureNanFrom(kSimStart + kStepLength);
-  EXPECT_EQ(wordsOf<NumericalError>([&] { brought.life.doStep(kSimStart, kStepLength, {}); }),
+  EXPECT_EQ(wordsOf<LostParticipantError>([&] { brought.life.doStep(kSimStart, kStepLength, {}); }),
             "spring: after the step to 0.001000 s: angular velocity, axis y, is nan");
   EXPECT_EQ(brought.life.state(), S::kFailed);
 }

@@ -88,7 +88,7 @@ TEST(StepMaster, ACommandThatIsNotFiniteIsTheControllersFault) {
   LocalSpring local;
   SpringRun run(local.guarded);
   run.controller.commandNanFrom(kSimStart + SimDuration{2'000'000});
-  EXPECT_EQ(wordsOf<NumericalError>([&] { run.master.run(); }),
+  EXPECT_EQ(wordsOf<LostParticipantError>([&] { run.master.run(); }),
             "tracker: command at 0.002000 s: torque of wheel 3 is nan");
 }
 

@@ -1,79 +1,17 @@
 #include "model/urdf_loader.hpp"
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
 
-#include "core/error.hpp"
 #include "model/frames.hpp"
-#include "tests/model/robot_fixture.hpp"
+#include "model/limits.hpp"
+#include "model/robot_notes.hpp"
+#include "tests/model/edited_robot.hpp"
 
 namespace ballbot {
 namespace {
 
-namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::MatchesRegex;
-
-/// A copy of the example robot's folder in which texts can be replaced.
-class EditedRobot : public ::testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("ballbot_urdf_" + std::to_string(getpid()) + "_" +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-    const fs::path source = fs::path(robotFile()).parent_path();
-    for (const auto& entry : fs::directory_iterator(source)) {
-      fs::copy(entry.path(), folder_ / entry.path().filename(),
-               fs::copy_options::overwrite_existing);
-    }
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  /// Replaces the first `from` after `anchor`.
-  void edit(const std::string& file, const std::string& anchor, const std::string& from,
-            const std::string& to) {
-    std::stringstream text;
-    text << std::ifstream(folder_ / file).rdbuf();
-    std::string s = text.str();
-    const std::size_t start = s.find(anchor);
-    ASSERT_NE(start, std::string::npos) << anchor;
-    const std::size_t at = s.find(from, start);
-    ASSERT_NE(at, std::string::npos) << from;
-    s.replace(at, from.size(), to);
-    std::ofstream(folder_ / file) << s;
-  }
-  void editUrdf(const std::string& anchor, const std::string& from, const std::string& to) {
-    edit("ballbot.urdf", anchor, from, to);
-  }
-
-  RobotParameters read() const {
-    const ConfigNode tree = loadYamlFile((folder_ / "ballbot.yaml").string());
-    ConfigReader in(tree, "robot");
-    return readRobot(in);
-  }
-
-  /// The error with the folder cut off.
-  std::string error() const {
-    try {
-      read();
-    } catch (const InputError& e) {
-      std::string text = e.what();
-      const std::string prefix = folder_.string() + "/";
-      for (std::size_t at; (at = text.find(prefix)) != std::string::npos;)
-        text.erase(at, prefix.size());
-      return text;
-    }
-    return "no error";
-  }
-
-  fs::path folder_;
-};
 
 TEST_F(EditedRobot, IsReadUnchanged) {
   const RobotParameters robot = read();
@@ -111,9 +49,15 @@ TEST_F(EditedRobot, MissingFileIsNamed) {
   EXPECT_EQ(error(), "nowhere.urdf: cannot be read");
 }
 
-TEST_F(EditedRobot, BrokenXmlIsNamed) {
-  editUrdf("", "</robot>", "");
-  EXPECT_THAT(error(), HasSubstr("ballbot.urdf: is not a valid URDF: "));
+TEST_F(EditedRobot, BrokenXmlIsNamedWithItsLine) {
+  editUrdf("arm_2_joint", "<parent link=\"arm_1\"/>", "<parent link=\"arm_1\">");
+  EXPECT_THAT(error(), HasSubstr("ballbot.urdf:330: is not well-formed XML: mismatched element"));
+}
+
+TEST_F(EditedRobot, OtherXmlIsNamed) {
+  editUrdf("", "<robot name=\"ballbot\">", "<sdf>");
+  editUrdf("", "</robot>", "</sdf>");
+  EXPECT_EQ(error(), "ballbot.urdf:13: is no URDF: its root is <sdf>, must be <robot>");
 }
 
 TEST_F(EditedRobot, MissingLinkIsNamed) {
@@ -125,55 +69,96 @@ TEST_F(EditedRobot, MissingLinkIsNamed) {
 
 TEST_F(EditedRobot, JointToAMissingLinkIsNamed) {
   editUrdf("arm_2_joint", "child link=\"arm_2\"", "child link=\"arm_two\"");
-  EXPECT_THAT(error(),
-              AllOf(HasSubstr("ballbot.urdf: is not a valid URDF: "), HasSubstr("arm_two")));
+  EXPECT_EQ(error(),
+            "ballbot.urdf:329: joint 'arm_2_joint' names the link 'arm_two', which is not in the "
+            "file");
 }
 
 TEST_F(EditedRobot, UnknownJointTypeIsNamed) {
   editUrdf("arm_3_joint", "revolute", "rotary");
-  EXPECT_THAT(error(), AllOf(HasSubstr("ballbot.urdf: is not a valid URDF: "),
-                             HasSubstr("arm_3_joint"), HasSubstr("rotary")));
+  EXPECT_EQ(error(),
+            "ballbot.urdf:383: <joint> 'arm_3_joint': type is 'rotary', must be one of: revolute, "
+            "continuous, prismatic, fixed, floating, planar");
 }
 
 TEST_F(EditedRobot, UnsuitableJointTypeIsNamed) {
   editUrdf("arm_2_joint", "revolute", "prismatic");
   EXPECT_EQ(error(),
-            "ballbot.urdf: joint 'arm_2_joint' of link 'arm_2' is prismatic, must be revolute");
+            "ballbot.urdf:329: joint 'arm_2_joint' of link 'arm_2' is prismatic, must be revolute "
+            "or continuous");
 }
 
 TEST_F(EditedRobot, WrongParentIsNamed) {
   editUrdf("arm_3_joint", "parent link=\"arm_2\"", "parent link=\"arm_1\"");
-  EXPECT_EQ(error(), "ballbot.urdf: link 'arm_3' must hang on 'arm_2', but hangs on 'arm_1'");
+  EXPECT_EQ(error(), "ballbot.urdf:383: link 'arm_3' must hang on 'arm_2', but hangs on 'arm_1'");
+}
+
+TEST_F(EditedRobot, WhatIsNoTreeIsNamed) {
+  addToUrdf(
+      "<joint name=\"again\" type=\"fixed\"><parent link=\"base\"/><child link=\"arm_2\"/>"
+      "</joint>");
+  EXPECT_THAT(error(), HasSubstr("link 'arm_2' hangs on joint 'arm_2_joint' already (line 329), so "
+                                 "'again' would close a loop"));
+}
+
+TEST_F(EditedRobot, ALoopAsideIsNamed) {
+  addToUrdf(partXml("a", "b", 1, 1) + partXml("b", "a", 1, 1));
+  EXPECT_THAT(error(), HasSubstr("link 'a' is in a loop of joints; the robot must be a tree"));
+}
+
+TEST_F(EditedRobot, ALooseLinkIsNamed) {
+  addToUrdf("<link name=\"tool\"/>");
+  EXPECT_THAT(error(), HasSubstr("links 'base' and 'tool' both hang on no joint"));
+}
+
+TEST_F(EditedRobot, ASecondLinkOfANameIsNamed) {
+  addToUrdf("<link name=\"arm_1\"/>");
+  EXPECT_THAT(error(), HasSubstr("a second link has the name 'arm_1'; the first is in line 249"));
+}
+
+TEST_F(EditedRobot, NegativeMomentIsNamed) {
+  editUrdf("link name=\"arm_2\"", "iyy=\"0.01915\"", "iyy=\"-0.01915\"");
+  EXPECT_EQ(error(),
+            "ballbot.urdf:287: <inertia> of link 'arm_2': iyy is -0.01915 kg m^2, must not be "
+            "negative");
 }
 
 TEST_F(EditedRobot, IndefiniteInertiaIsNamed) {
-  editUrdf("link name=\"arm_2\"", "iyy=\"0.01915\"", "iyy=\"-0.01915\"");
-  EXPECT_EQ(error(),
-            "ballbot.urdf: link 'arm_2': inertia is not positive definite; its principal moments "
-            "are -0.01915, 0.00156, 0.01933 kg m^2");
+  editUrdf("link name=\"arm_2\"", "ixy=\"0\"", "ixy=\"0.03\"");
+  EXPECT_THAT(error(),
+              HasSubstr("ballbot.urdf:283: link 'arm_2': inertia is not positive definite; "
+                        "its principal moments are -0.01"));
 }
 
 TEST_F(EditedRobot, InertiaOfNoRigidBodyIsNamed) {
   editUrdf("link name=\"arm_3\"", "iyy=\"0.01680\"", "iyy=\"0.01\"");
   EXPECT_EQ(error(),
-            "ballbot.urdf: link 'arm_3': no rigid body has this inertia: of its principal moments "
-            "0.00058, 0.01, 0.0168 kg m^2 the largest exceeds the sum of the others");
+            "ballbot.urdf:337: link 'arm_3': no rigid body has this inertia: of its principal "
+            "moments 0.00058, 0.01, 0.0168 kg m^2 the largest exceeds the sum of the others");
 }
 
-TEST_F(EditedRobot, ZeroMassIsNamed) {
-  editUrdf("link name=\"arm_1\"", "mass value=\"1.30\"", "mass value=\"0\"");
-  EXPECT_EQ(error(), "ballbot.urdf: link 'arm_1': mass is 0 kg, must be more than 0");
-}
-
-TEST_F(EditedRobot, MissingInertiaIsNamed) {
+TEST_F(EditedRobot, ABodyWithoutMassIsNamed) {
   editUrdf("link name=\"wheel_2\"", "<inertial>", "<!--");
   editUrdf("link name=\"wheel_2\"", "</inertial>", "-->");
-  EXPECT_EQ(error(), "ballbot.urdf: link 'wheel_2' has no <inertial> with a mass");
+  EXPECT_THAT(error(), HasSubstr("link 'wheel_2' has no mass, must have some"));
+}
+
+TEST_F(EditedRobot, InertiaWithoutMassIsNamed) {
+  editUrdf("link name=\"arm_1\"", "mass value=\"1.30\"", "mass value=\"0\"");
+  EXPECT_EQ(error(),
+            "ballbot.urdf:253: <inertia> of link 'arm_1': is not zero, but the mass is; a body "
+            "without mass has no inertia");
 }
 
 TEST_F(EditedRobot, UnequalWheelIsNamed) {
   editUrdf("link name=\"wheel_3\"", "mass value=\"0.56\"", "mass value=\"0.6\"");
-  EXPECT_EQ(error(), "ballbot.urdf: link 'wheel_3' must have the mass and inertia of 'wheel_1'");
+  EXPECT_THAT(error(), HasSubstr("link 'wheel_3' must have the mass and inertia of 'wheel_1'"));
+}
+
+TEST_F(EditedRobot, TheBallsSphereMustBeItsOnlyOneAndInTheMiddle) {
+  editUrdf("link name=\"ball\"", "<collision name=\"sphere\">",
+           "<collision name=\"sphere\"><origin xyz=\"0 0 0.01\"/>");
+  EXPECT_THAT(error(), HasSubstr("link 'ball': the sphere must have its centre at the link's"));
 }
 
 TEST_F(EditedRobot, WrongTotalMassIsNamed) {
@@ -195,27 +180,110 @@ TEST_F(EditedRobot, NominalArmMustBeWithinTheLimits) {
                         "(link 'arm_2' of ballbot.urdf)"));
 }
 
+TEST_F(EditedRobot, WheelsNeedDirectionsOfTheirOwn) {
+  edit("ballbot.yaml", "azimuth_deg", "[0, 120, 240]", "[0, 120, 360]");
+  EXPECT_THAT(error(), HasSubstr("azimuth_deg puts wheels 1 and 3 0 degrees apart, must be at "
+                                 "least 5"));
+}
+
+TEST_F(EditedRobot, WithoutGravityThereIsNothingToBalance) {
+  edit("ballbot.yaml", "", "gravity_m_per_s2: 9.81", "gravity_m_per_s2: 0");
+  EXPECT_THAT(error(), HasSubstr("gravity_m_per_s2 is 0, must be between 0.1 and 100"));
+}
+
 TEST_F(EditedRobot, FixedPartCountsToItsBody) {
-  editUrdf("", "</robot>",
-           "<link name=\"camera\"><inertial><mass value=\"0.5\"/><inertia ixx=\"1e-4\" ixy=\"0\" "
-           "ixz=\"0\" iyy=\"2e-4\" iyz=\"0\" izz=\"2e-4\"/></inertial></link>"
-           "<joint name=\"camera_joint\" type=\"fixed\"><parent link=\"base\"/><child "
-           "link=\"camera\"/><origin xyz=\"0.1 0 0.4\" rpy=\"0 0 "
-           "1.5707963267948966\"/></joint></robot>");
-  edit("ballbot.yaml", "", "total_mass_kg: 25.0", "total_mass_kg: 25.5");
+  addToUrdf(partXml("camera", "base", 0.5, 1e-4, "fixed", "0.1 0 0.4"));
+  setTotalMass("25.5");
   const BodyInertia bare = exampleRobot().base, with_camera = read().base;
   EXPECT_NEAR(with_camera.mass, bare.mass + 0.5, 1e-12);
   const Vector3 added = with_camera.mass * with_camera.p_LLcm_L - bare.mass * bare.p_LLcm_L;
   EXPECT_LT((added - 0.5 * Vector3(0.1, 0, 0.4)).norm(), 1e-12);
 }
 
+TEST_F(EditedRobot, WhatHangsOnAFrameCountsToTheBodyOfTheFrame) {
+  // Frames of the last link and the base, and a part on a part, turned on the way.
+  addToUrdf(partXml("gripper", "end_effector", 2, 1e-3, "fixed", "0.05 0 0") +
+            partXml("finger", "gripper", 0.25, 1e-4, "fixed", "0 0.02 0") +
+            partXml("shield", "imu", 0.5, 1e-4));
+  setTotalMass("27.75");
+  const RobotParameters bare = exampleRobot(), robot = read();
+  EXPECT_NEAR(robot.arm[2].inertia.mass, bare.arm[2].inertia.mass + 2.25, 1e-12);
+  EXPECT_NEAR(robot.base.mass, bare.base.mass + 0.5, 1e-12);
+  // E has its x along the link's z.
+  const auto moment = [](const BodyInertia& b) -> Vector3 { return b.mass * b.p_LLcm_L; };
+  const Vector3 gripper(0, 0, 0.4), finger(0, 0.02, 0.4);
+  EXPECT_LT(
+      (moment(robot.arm[2].inertia) - moment(bare.arm[2].inertia) - 2 * gripper - 0.25 * finger)
+          .norm(),
+      1e-12);
+}
+
+TEST_F(EditedRobot, AFrameMayHaveMassItself) {
+  editUrdf("", "<link name=\"end_effector\">",
+           "<link name=\"end_effector\"><inertial><mass value=\"1\"/><inertia ixx=\"1e-4\" "
+           "iyy=\"1e-4\" izz=\"1e-4\"/></inertial>");
+  setTotalMass("26");
+  EXPECT_NEAR(read().arm[2].inertia.mass, exampleRobot().arm[2].inertia.mass + 1, 1e-12);
+}
+
+TEST_F(EditedRobot, FramesAndPointMassesAreParts) {
+  addToUrdf(partXml("tcp", "arm_3", 0, 0) + partXml("marker", "arm_3", 0.2, 0));
+  setTotalMass("25.2");
+  EXPECT_NEAR(read().arm[2].inertia.mass, exampleRobot().arm[2].inertia.mass + 0.2, 1e-12);
+}
+
+TEST_F(EditedRobot, AFrameChangesNoBit) {
+  addToUrdf(partXml("tcp", "base", 0, 0, "fixed", "0.1 0.2 0.3"));
+  EXPECT_EQ(read().base.p_LLcm_L, exampleRobot().base.p_LLcm_L);
+  EXPECT_EQ(read().base.I_LLcm_L, exampleRobot().base.I_LLcm_L);
+}
+
+TEST_F(EditedRobot, TheWholeOfABodyIsChecked) {
+  // The sum of both is no rigid body's, though the camera may be one.
+  editUrdf("link name=\"arm_2\"", "ixx=\"0.01933\"", "ixx=\"0.5\"");
+  addToUrdf(partXml("camera", "arm_2", 0.1, 1e-5));
+  EXPECT_THAT(error(), HasSubstr("link 'arm_2' with all that is fixed to it: no rigid body has"));
+}
+
 TEST_F(EditedRobot, PartOnAMovingJointIsRefused) {
-  editUrdf("", "</robot>",
-           "<link name=\"flag\"/><joint name=\"flag_joint\" type=\"continuous\"><parent "
-           "link=\"base\"/><child link=\"flag\"/></joint></robot>");
-  EXPECT_EQ(error(),
-            "ballbot.urdf: link 'flag' hangs on joint 'flag_joint' of type continuous; only ball, "
-            "wheels and arm move, so it must be fixed");
+  for (const char* parent : {"base", "end_effector"}) {
+    SetUp();
+    addToUrdf(partXml("flag", parent, 0.1, 1e-5, "continuous"));
+    EXPECT_THAT(error(), HasSubstr("link 'flag' hangs on joint 'flag_joint' of type continuous; "
+                                   "only ball, wheels and arm move, so it must be fixed"));
+  }
+}
+
+TEST_F(EditedRobot, ALimitOutOfReachIsNone) {
+  for (const char* limit : {"1000001", "1e16", "1.7976931348623157e+308", "inf"}) {
+    SetUp();
+    editUrdf("arm_2_joint", "lower=\"-2.0\" upper=\"2.0\"",
+             std::string("lower=\"-") + limit + "\" upper=\"" + limit + "\"");
+    EXPECT_EQ(read().arm[1].lower_limit, -kUnlimited) << limit;
+    EXPECT_EQ(read().arm[1].upper_limit, kUnlimited) << limit;
+  }
+}
+
+TEST_F(EditedRobot, AContinuousArmJointHasNoLimits) {
+  editUrdf("arm_1_joint", "revolute", "continuous");
+  EXPECT_EQ(read().arm[0].lower_limit, -kUnlimited);
+  EXPECT_EQ(read().arm[0].upper_limit, kUnlimited);
+}
+
+TEST_F(EditedRobot, ATorqueLimitOutOfReachIsNone) {
+  edit("ballbot.yaml", "", "arm_torque_limit_Nm: 18", "arm_torque_limit_Nm: 1e308");
+  EXPECT_EQ(read().arm_torque_limit, kUnlimited);
+}
+
+TEST_F(EditedRobot, LimitsInDegreesDeserveAWord) {
+  const auto notes = [this] {
+    return robotNotes(loadYamlFile((folder_ / "ballbot.yaml").string()));
+  };
+  EXPECT_TRUE(notes().empty());
+  editUrdf("arm_1_joint", "lower=\"-3.1\" upper=\"3.1\"", "lower=\"-177.6\" upper=\"177.6\"");
+  ASSERT_EQ(notes().size(), 1u);
+  EXPECT_THAT(notes()[0], HasSubstr("joint 'arm_1_joint' has a limit at -177.6 rad, -28.3 turns "
+                                    "away. URDF counts in rad: -177.6 degrees would be -3.1"));
 }
 
 }  // namespace

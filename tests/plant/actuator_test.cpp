@@ -135,6 +135,21 @@ TEST(Actuator, SpeedLimitStopsDrivingButNotBraking) {
   EXPECT_DOUBLE_EQ(torqueAtSpeed(p, 0.9 * p.speed_limit), p.peak_torque);
 }
 
+// Friction is the rotor's, and an ideal actuator has no rotor: with it, the full friction of motor
+// and gear would be at the joint, which a torque loop leaves a twentieth of.
+TEST(Actuator, AnIdealOneGivesTheTorqueAskedFor) {
+  const ActuatorParameters p = plantConfig("full").actuators.wheel;
+  for (const bool friction : {false, true}) {
+    SeriesElasticActuator ideal(p, friction, false, false);
+    ideal.demand(1.5, 0);
+    for (const double velocity : {-5.0, -1e-3, 0.0, 1e-3, 5.0}) {
+      ActuatorMotion motion;
+      motion.joint_velocity = velocity;
+      EXPECT_EQ(ideal.torques(1e-4, motion).joint, 1.5) << velocity;
+    }
+  }
+}
+
 TEST(Actuator, SaturationBoundsTheMotorTorque) {
   const ActuatorParameters p = linearActuator(60);
   for (const bool saturation : {false, true}) {

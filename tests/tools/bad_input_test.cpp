@@ -53,6 +53,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"NoLimit", {"--set", "requirements.largest_tilt_deg={}"}, "has no limit"},
         BadInput{"NoEquals", {"--set", "duration_s"}, "write path=value"},
         BadInput{"MissingUrdf", {"--set", "robot.urdf=nowhere.urdf"}, "nowhere.urdf"},
+        BadInput{"NoGravity", {"--set", "robot.gravity_m_per_s2=0"}, "gravity_m_per_s2 is 0, must be between"},
+        BadInput{"CentreOfMassFarOff", {"--set", "robot.nominal_arm_rad=[0,2,0]", "--set", "robot.payload_mass_kg=40"},
+                 "no equilibrium within 30 degrees for the arm at (0.000, 2.000, 0.000) rad"},
+        BadInput{"BlindWeights", {"--set", "controller.lqr.weights={ball_position: 1e-300}"},
+                 "kind: no such law balances this robot: Riccati"},
         BadInput{"UnknownEstimator", {"--set", "estimator.kind=oracle"}, "kind is 'oracle'"},
         BadInput{"UnknownLaw", {"--set", "controller.kind=magic"}, "kind is 'magic'"}),
     [](const auto& test) { return test.param.name; });
@@ -74,6 +79,21 @@ TEST(BadFiles, AnErrorNamesFileLineAndColumn) {
   const Finished run = runBallbot({"run", folder / "bad.yaml", "--quiet", "--out", folder / "run"}, 20);
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, ::testing::ContainsRegex("bad\\.yaml:[0-9]+:14: pitch_deg is steep, must be a number"));
+}
+
+TEST(BadFiles, LimitsThatMayBeDegreesDeserveAWordAndTheRunGoesOn) {
+  const TemporaryFolder folder;
+  std::string text = readFile(std::string(BALLBOT_SOURCE_DIR) + "/configs/robots/ballbot.urdf");
+  const std::string limits = "lower=\"-3.1\" upper=\"3.1\"";
+  ASSERT_NE(text.find(limits), std::string::npos);
+  text.replace(text.find(limits), limits.size(), "lower=\"-177.6\" upper=\"177.6\"");
+  std::ofstream(folder / "degrees.urdf") << text;
+  const Finished run =
+      runBallbot({"run", scenarioPath("balance"), "--in-process", "--quiet", "--no-report", "--set", "requirements={}",
+                  "--set", "duration_s=0.1", "--set", "robot.urdf=" + (folder / "degrees.urdf"), "--out", folder / "run"},
+                 60);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.err, HasSubstr("degrees.urdf:275: joint 'arm_1_joint' has a limit at -177.6 rad"));
 }
 
 TEST(BadFiles, AFilledFolderIsNotOverwritten) {
