@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/yaml_text.hpp"
 
 namespace ballbot {
 
@@ -121,37 +122,12 @@ void setPath(ConfigNode& root, const std::string& dotted_path, ConfigNode value)
 
 namespace {
 
-std::string quotedText(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
-
-bool isPlain(const std::string& text) {
-  if (text.empty() || text == "null" || text == "~") return false;
-  return std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-           c == '_' || c == '.' || c == '+' || c == '-' || c == '/';
-  }) && text[0] != '-' ? true
-     : (text.size() > 1 && text[0] == '-' && ((text[1] >= '0' && text[1] <= '9') || text[1] == '.') &&
-        text.find_first_of(" :#,[]{}\"'\n") == std::string::npos);
-}
-
 void emit(const ConfigNode& node, int indent, std::string& out) {
   const std::string pad(static_cast<std::size_t>(indent), ' ');
   switch (node.kind()) {
     case ConfigNode::Kind::kNull: out += "null\n"; return;
     case ConfigNode::Kind::kScalar:
-      out += (node.quoted() || !isPlain(node.text()) ? quotedText(node.text()) : node.text()) + "\n";
+      out += yamlText(node) + "\n";
       return;
     case ConfigNode::Kind::kMap:
       if (node.entries().empty()) {
@@ -160,7 +136,7 @@ void emit(const ConfigNode& node, int indent, std::string& out) {
       }
       if (indent > 0) out += "\n";
       for (const auto& [key, value] : node.entries()) {
-        out += pad + key + ": ";
+        out += pad + yamlText(key) + ": ";
         emit(value, indent + 2, out);
       }
       return;
@@ -175,9 +151,8 @@ void emit(const ConfigNode& node, int indent, std::string& out) {
       if (flat) {
         out += "[";
         for (std::size_t i = 0; i < node.items().size(); ++i) {
-          const ConfigNode& item = node.items()[i];
           out += i ? ", " : "";
-          out += item.quoted() || !isPlain(item.text()) ? quotedText(item.text()) : item.text();
+          out += yamlText(node.items()[i]);
         }
         out += "]\n";
         return;

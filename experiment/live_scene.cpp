@@ -12,6 +12,7 @@
 #include "metrics/balance_metrics.hpp"
 #include "model/frames.hpp"
 #include "model/omniwheel_kinematics.hpp"
+#include "report/json_text.hpp"
 
 namespace ballbot {
 namespace {
@@ -72,7 +73,7 @@ std::string LiveScene::description() const {
   out["plots"] = {{{"quantity", "ball position"}, {"unit", "m"}, {"series", {"x", "y"}}},
                   {{"quantity", "tilt"}, {"unit", "deg"}, {"series", {"tilt"}}},
                   {{"quantity", "force"}, {"unit", "N"}, {"series", {"pushes", "contact"}}}};
-  return out.dump();
+  return jsonText(out, -1);
 }
 
 std::string LiveScene::frame(const ballbot_msgs::truth_frame& truth) {

@@ -7,6 +7,7 @@
 #include "experiment/build_info.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/text_file.hpp"
+#include "report/json_text.hpp"
 
 namespace ballbot {
 namespace {
@@ -39,7 +40,7 @@ void writeManifest(const Scenario& scenario, const RunFolder& folder,
   m["config_digest"] = scenario.configDigest();
   if (begins_at) m["begins_at_s"] = toSeconds(*begins_at);
   for (const auto& [key, value] : buildInfo()) m["build"][key] = value;
-  writeTextFile(folder.manifestFile(), m.dump(2) + "\n");
+  writeTextFile(folder.manifestFile(), jsonText(m) + "\n");
 }
 
 Json summaryJson(const Scenario& scenario, const RunResult& result) {
@@ -77,7 +78,7 @@ Json summaryJson(const Scenario& scenario, const RunResult& result) {
 }
 
 void writeSummary(const Scenario& scenario, const RunResult& result, const RunFolder& folder) {
-  writeTextFile(folder.summaryFile(), summaryJson(scenario, result).dump(2) + "\n");
+  writeTextFile(folder.summaryFile(), jsonText(summaryJson(scenario, result)) + "\n");
 }
 
 void writeTiming(const RunResult& result,
@@ -97,7 +98,7 @@ void writeTiming(const RunResult& result,
         {"riccati", percentilesUs(plan_times, [](const PlanTimes& p) { return p.phases.riccati_ns; })},
         {"line_search", percentilesUs(plan_times, [](const PlanTimes& p) { return p.phases.line_search_ns; })}};
   }
-  writeTextFile(folder.timingFile(), t.dump(2) + "\n");
+  writeTextFile(folder.timingFile(), jsonText(t) + "\n");
 }
 
 }  // namespace ballbot

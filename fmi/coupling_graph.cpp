@@ -1,7 +1,7 @@
 #include "fmi/coupling_graph.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest_word.hpp"
+#include "fmi/array_element.hpp"
 
 namespace ballbot {
 namespace {
@@ -26,28 +27,34 @@ std::string didYouMean(const std::string& word, const std::set<std::string>& can
   return near.empty() ? "" : fmt::format("; did you mean '{}'?", near);
 }
 
-/// "p_WE[2]": a port's name and one element of it, from 0; -1 for all.
-std::pair<std::string, long> elementOf(const std::string& name) {
-  const std::size_t open = name.find('[');
-  if (open == std::string::npos || name.back() != ']') return {name, -1};
-  return {name.substr(0, open), std::strtol(name.c_str() + open + 1, nullptr, 10) - 1};
+/// The part of a port that `name` stands for: all of it, or one element.
+std::optional<CouplingPort> partOf(const CouplingPort& port, const std::string& name) {
+  std::vector<std::string> names = port.aliases;
+  names.push_back(port.name);
+  const auto called = [&](const std::string& text) {
+    return std::find(names.begin(), names.end(), text) != names.end();
+  };
+  if (called(name)) return port;
+  const auto parts = splitElement(name);
+  if (!parts || !called(parts->first)) return std::nullopt;
+  const auto place = elementOffset(
+      parts->second, port.dimensions.empty() ? std::vector{port.size} : port.dimensions,
+      port.first_index);
+  if (!place) return std::nullopt;
+  CouplingPort one = port;
+  one.name = name;
+  one.offset += *place;
+  one.size = 1;
+  return one;
 }
 
 /// The end of a connection: a whole port, or one element of it.
 CouplingPort findEnd(const CouplingNode& node, const std::vector<CouplingPort>& ports,
                      const std::string& name, const char* kind, const SourceLocation& where) {
   std::set<std::string> names;
-  const auto [whole, element] = elementOf(name);
   for (const CouplingPort& port : ports) {
     names.insert(node.name + "." + port.name);
-    if (port.name == name) return port;
-    if (port.name != whole || element < 0 || static_cast<std::size_t>(element) >= port.size)
-      continue;
-    CouplingPort one = port;
-    one.name = name;
-    one.offset += static_cast<std::size_t>(element);
-    one.size = 1;
-    return one;
+    if (auto part = partOf(port, name)) return *std::move(part);
   }
   const std::string full = node.name + "." + name;
   throw InputError(fmt::format("{}: '{}' has no {} '{}'{}", toText(where), node.name, kind, name,
@@ -106,6 +113,11 @@ void CouplingGraph::connect(const CouplingLine& line) {
   if (source.size != sink.size) {
     throw InputError(fmt::format("{}: '{}' has {} values, '{}' takes {}", toText(line.where),
                                  line.from, source.size, line.to, sink.size));
+  }
+  if (!fitsWithoutLoss(source.kind, sink.kind)) {
+    throw InputError(fmt::format(
+        "{}: '{}' is {}, but '{}' takes {}; something could be lost. Convert it in one of the FMUs",
+        toText(line.where), line.from, toText(source.kind), line.to, toText(sink.kind)));
   }
   // FMUs of others often say no unit; what is said must agree.
   const bool said = !source.unit.name.empty() && !sink.unit.name.empty();

@@ -4,15 +4,20 @@
 #include <vector>
 
 #include "fmi/coupling_config.hpp"
+#include "fmi/fmu_types.hpp"
 #include "fmi/units.hpp"
 
 namespace ballbot {
 
 /// One named run of values in a participant's row of inputs or outputs.
 struct CouplingPort {
-  std::string name;  ///< without the participant's
-  FmuUnit unit;      ///< name empty: nobody said
+  std::string name;                  ///< without the participant's
+  std::vector<std::string> aliases;  ///< other names that connections may use
+  FmuUnit unit;                      ///< name empty: nobody said
+  ValueKind kind = ValueKind::kReal;
   std::size_t offset = 0, size = 0;
+  std::vector<std::size_t> dimensions;  ///< of arrays of more than one
+  std::size_t first_index = 1;          ///< number of the first element
   /// Of outputs: the inputs, by their number, on which they depend within one instant.
   std::vector<std::size_t> depends_on;
 };
@@ -33,8 +38,9 @@ struct CouplingNode {
 class CouplingGraph {
  public:
   /// @param nodes named; the one named `controller` decides what is known before and after it
-  /// @throw InputError with file, line and column for unknown names, different units or sizes, two
-  ///        sources of one value, and loops within one instant without a delay.
+  /// @throw InputError with file, line and column for unknown names, different units or sizes,
+  ///        kinds of values that would lose something, two sources of one value, and loops within
+  ///        one instant without a delay.
   CouplingGraph(std::vector<CouplingNode> nodes, const std::vector<CouplingLine>& lines);
 
   const std::vector<CouplingNode>& nodes() const { return nodes_; }

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "fmi/fmu_description.hpp"
+#include "fmi/coupling_nodes.hpp"
+#include "fmi/fmu_ports.hpp"
+#include "fmi/plant_contents.hpp"
 #include "model/signal_table.hpp"
 
 namespace ballbot {
@@ -14,141 +16,7 @@ namespace {
 /// What this program's plant FMU calls the hash of its state.
 constexpr const char* kDigestPort = "state_digest";
 
-template <typename Frame>
-void addPorts(std::vector<CouplingPort>& ports, const std::string& prefix,
-              const std::vector<Signal<Frame>>& signals) {
-  for (const auto& s : signals) {
-    CouplingPort port;
-    port.name = prefix + s.name;
-    if (*s.unit != '\0') port.unit = fmuUnit(s.unit);
-    port.size = static_cast<std::size_t>(s.size);
-    CouplingNode::add(ports, std::move(port));
-  }
-}
-
-/// Commands follow from sensors at once: the controller is part of every loop.
-CouplingNode controllerNode() {
-  CouplingNode node{kControllerName, {}, {}};
-  addPorts(node.inputs, "sensors.", sensorSignals());
-  addPorts(node.outputs, "command.", commandSignals());
-  for (CouplingPort& output : node.outputs) {
-    for (std::size_t i = 0; i < node.inputs.size(); ++i) output.depends_on.push_back(i);
-  }
-  return node;
-}
-
-CouplingNode recordNode() {
-  CouplingNode node{kRecordName, {}, {}};
-  addPorts(node.inputs, "truth.", truthSignals());
-  return node;
-}
-
-CouplingNode nativePlantNode() {
-  CouplingNode node{kPlantName, {}, {}};
-  addPorts(node.inputs, "command.", commandSignals());
-  addPorts(node.inputs, "force.", externalForceSignals());
-  addPorts(node.outputs, "sensors.", sensorSignals());
-  addPorts(node.outputs, "truth.", truthSignals());
-  return node;
-}
-
-/// "door.hand[2]" is the port "hand[2]" of "door".
-bool belongsTo(const std::string& end, const std::string& node) {
-  return end.rfind(node + ".", 0) == 0;
-}
-std::string portOf(const std::string& end) { return end.substr(end.find('.') + 1); }
 std::string withoutElement(const std::string& end) { return end.substr(0, end.find('[')); }
-
-FmuPort findFmuPort(const FmuDescription& fmu, const std::string& name,
-                    const SourceLocation& where) {
-  const FmuPort row = findPortOr(fmu, withoutElement(name));
-  if (row.size > 0) return row;
-  try {
-    return findPort(fmu, name);
-  } catch (const InputError& e) {
-    throw InputError(fmt::format("{}: {}", toText(where), e.what()));
-  }
-}
-
-CouplingPort makePort(const FmuDescription& fmu, const FmuPort& port) {
-  CouplingPort out;
-  out.name = port.name;
-  out.size = static_cast<std::size_t>(port.size);
-  const std::string& unit = port.first().unit;
-  const auto it = std::find_if(fmu.units.begin(), fmu.units.end(),
-                               [&](const FmuUnit& u) { return u.name == unit; });
-  out.unit = it == fmu.units.end() ? FmuUnit{unit} : *it;
-  return out;
-}
-
-/// The inputs, by their number, that an output depends on at once.
-std::vector<std::size_t> dependencies(const FmuPort& output, const std::vector<FmuPort>& inputs) {
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const bool depends = std::any_of(
-        output.variables.begin(), output.variables.end(), [&](const ImportedVariable& o) {
-          return o.depends_on_all ||
-                 std::any_of(inputs[i].variables.begin(), inputs[i].variables.end(),
-                             [&](const ImportedVariable& v) {
-                               return std::find(o.depends_on.begin(), o.depends_on.end(),
-                                                v.reference) != o.depends_on.end();
-                             });
-        });
-    if (depends) out.push_back(i);
-  }
-  return out;
-}
-
-void requireRole(const FmuPort& port, const CouplingLine& line, bool as_input) {
-  const VariableRole role = port.first().role;
-  const bool input = role == VariableRole::kInput;
-  const bool readable =
-      role == VariableRole::kOutput || role == VariableRole::kLocal || role == VariableRole::kTime;
-  if (as_input ? input : readable) return;
-  throw InputError(fmt::format(
-      "{}: '{}' is no {}{}", toText(line.where), as_input ? line.to : line.from,
-      as_input ? "input" : "output",
-      role == VariableRole::kParameter ? ", but a parameter; set it under 'parameters'" : ""));
-}
-
-/// One FMU of the scenario, as far as connections use it.
-struct UsedFmu {
-  FmuEntry entry;
-  FmuDescription description;
-};
-
-CouplingNode fmuNode(const UsedFmu& fmu, const std::vector<CouplingLine>& lines, FmuUse& use) {
-  std::vector<FmuPort> inputs, outputs;
-  const auto keep = [](std::vector<FmuPort>& ports, const FmuPort& port) {
-    const bool known = std::any_of(ports.begin(), ports.end(),
-                                   [&](const FmuPort& p) { return p.name == port.name; });
-    if (!known) ports.push_back(port);
-  };
-  for (const CouplingLine& line : lines) {
-    if (belongsTo(line.to, fmu.entry.name)) {
-      const FmuPort port = findFmuPort(fmu.description, portOf(line.to), line.where);
-      requireRole(port, line, true);
-      keep(inputs, port);
-    }
-    if (belongsTo(line.from, fmu.entry.name)) {
-      const FmuPort port = findFmuPort(fmu.description, portOf(line.from), line.where);
-      requireRole(port, line, false);
-      keep(outputs, port);
-    }
-  }
-  CouplingNode node{fmu.entry.name, {}, {}};
-  for (const FmuPort& port : inputs) {
-    CouplingNode::add(node.inputs, makePort(fmu.description, port));
-    use.inputs.push_back(port.name);
-  }
-  for (const FmuPort& port : outputs) {
-    CouplingPort out = makePort(fmu.description, port);
-    if (port.first().role != VariableRole::kTime) out.depends_on = dependencies(port, inputs);
-    CouplingNode::add(node.outputs, std::move(out));
-    use.outputs.push_back(port.name);
-  }
-  return node;
-}
 
 /// Lines that nobody had to write, from `from` to `to` for each signal whose plant has that name.
 template <typename Frame>
@@ -166,6 +34,33 @@ void addLines(std::vector<CouplingLine>& lines, const std::vector<Signal<Frame>>
   }
 }
 
+/// A parameter that is there, and takes this value as it is.
+void requireSettable(const UsedFmu& fmu, const std::string& name, double value) {
+  const std::string at = toText(fmu.entry.where) + ": ";
+  FmuPort port;
+  try {
+    port = findPort(fmu.description, name);
+  } catch (const InputError& e) {
+    throw InputError(at + e.what());
+  }
+  const ImportedVariable& v = port.first();
+  if (v.role != VariableRole::kParameter || port.size != 1) {
+    throw InputError(
+        fmt::format("{}{}: '{}' is no parameter with one value", at, fmu.description.file, name));
+  }
+  if (v.facts->kind == ValueKind::kOther) {
+    throw InputError(fmt::format("{}{}: parameter '{}' is of type {}, which cannot be set", at,
+                                 fmu.description.file, name, v.type));
+  }
+  std::string refusal = refusalOf(v, value);
+  if (refusal.empty() && !(value >= v.minimum && value <= v.maximum)) {
+    refusal = fmt::format("must be between {} and {}", v.minimum, v.maximum);
+  }
+  if (refusal.empty()) return;
+  throw InputError(fmt::format("{}{}: parameter '{}' is {}, {}", at, fmu.description.file, name,
+                               value, refusal));
+}
+
 void requireUsable(const UsedFmu& fmu) {
   const FmuDescription& d = fmu.description;
   const std::string at = toText(fmu.entry.where) + ": " + d.file;
@@ -176,13 +71,7 @@ void requireUsable(const UsedFmu& fmu) {
     throw InputError(
         fmt::format("{}: has no {}, only code for other machines", at, d.binaryPath()));
   }
-  for (const auto& [name, value] : fmu.entry.parameters) {
-    FmuPort port = findPortOr(d, name);
-    if (port.size == 0) port = findFmuPort(d, name, fmu.entry.where);
-    if (port.first().role != VariableRole::kParameter || port.size != 1) {
-      throw InputError(fmt::format("{}: '{}' is no parameter with one value", at, name));
-    }
-  }
+  for (const auto& [name, value] : fmu.entry.parameters) requireSettable(fmu, name, value);
 }
 
 /// Sensors that the controller needs; an outside pose may be missing.
@@ -213,8 +102,10 @@ void requireWholeInputs(const CouplingGraph& graph) {
       continue;
     for (const CouplingPort& input : node.inputs) {
       if (graph.fed(n, input)) continue;
-      throw InputError(
-          fmt::format("fmus: only some elements of '{}.{}' are connected", node.name, input.name));
+      throw InputError(fmt::format(
+          "fmus: only some elements of '{}.{}' are connected; the others would be zero in "
+          "silence. Connect them, too",
+          node.name, input.name));
     }
   }
 }
@@ -256,7 +147,10 @@ CouplingPlan planCoupling(const ConfigNode& scenario) {
   nodes.push_back(controllerNode());
   nodes.push_back(recordNode());
   CouplingPlan plan{CouplingGraph(std::move(nodes), lines), std::move(uses), !plant_fmu, true};
-  if (plant_fmu) requireSensors(plan.graph, plant_fmu->entry.where);
+  if (plant_fmu) {
+    requireSensors(plan.graph, plant_fmu->entry.where);
+    requireSamePlant(scenario, plant_fmu->entry, plant_fmu->description);
+  }
   requireWholeInputs(plan.graph);
   const std::size_t record = plan.graph.find(kRecordName);
   for (const CouplingPort& input : plan.graph.nodes()[record].inputs) {

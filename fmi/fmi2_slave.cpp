@@ -64,25 +64,36 @@ class Fmi2Slave final : public FmuSlave {
 
   void get(const FmuPort& port, double* values) override {
     for (const ImportedVariable& v : port.variables) {
-      if (v.type == "Real") {
-        check(fmu_.fmi2GetReal(instance_, &v.reference, 1, values), "fmi2GetReal");
-      } else {
-        int whole = 0;
-        check(v.type == "Boolean" ? fmu_.fmi2GetBoolean(instance_, &v.reference, 1, &whole)
-                                  : fmu_.fmi2GetInteger(instance_, &v.reference, 1, &whole),
-              "fmi2GetInteger");
-        *values = whole;
+      int whole = 0;
+      switch (v.facts->kind) {
+        case ValueKind::kReal:
+          check(fmu_.fmi2GetReal(instance_, &v.reference, 1, values), "fmi2GetReal");
+          break;
+        case ValueKind::kBoolean:
+          check(fmu_.fmi2GetBoolean(instance_, &v.reference, 1, &whole), "fmi2GetBoolean");
+          *values = whole != 0;
+          break;
+        default:
+          check(fmu_.fmi2GetInteger(instance_, &v.reference, 1, &whole), "fmi2GetInteger");
+          *values = whole;
       }
       ++values;
     }
   }
   void set(const FmuPort& port, const double* values) override {
     for (const ImportedVariable& v : port.variables) {
-      const int whole = v.type == "Real" ? 0 : static_cast<int>(*values);
-      check(v.type == "Real"      ? fmu_.fmi2SetReal(instance_, &v.reference, 1, values)
-            : v.type == "Boolean" ? fmu_.fmi2SetBoolean(instance_, &v.reference, 1, &whole)
-                                  : fmu_.fmi2SetInteger(instance_, &v.reference, 1, &whole),
-            "setting a variable");
+      requireTaken(v, *values);
+      const int whole = v.facts->kind == ValueKind::kReal ? 0 : static_cast<int>(*values);
+      switch (v.facts->kind) {
+        case ValueKind::kReal:
+          check(fmu_.fmi2SetReal(instance_, &v.reference, 1, values), "fmi2SetReal");
+          break;
+        case ValueKind::kBoolean:
+          check(fmu_.fmi2SetBoolean(instance_, &v.reference, 1, &whole), "fmi2SetBoolean");
+          break;
+        default:
+          check(fmu_.fmi2SetInteger(instance_, &v.reference, 1, &whole), "fmi2SetInteger");
+      }
       ++values;
     }
   }
@@ -109,8 +120,15 @@ class Fmi2Slave final : public FmuSlave {
   }
 
  private:
+  void requireTaken(const ImportedVariable& v, double value) const {
+    const std::string refusal = refusalOf(v, value);
+    if (refusal.empty()) return;
+    throw NumericalError(
+        fmt::format("{}: '{}' would be set to {}; it {}", file_, v.name, value, refusal));
+  }
   void check(fmi2Status status, const char* call) {
     if (status == fmi2OK || status == fmi2Warning) return;
+    fmu_.library.require({call});  // says so if that is why
     throw NumericalError(fmt::format("{}: {} returned {}: {}", file_, call,
                                      status == fmi2Discard ? "discard" : "an error",
                                      ear_.last_error));

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
@@ -24,6 +25,9 @@ void hear(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String, fm
     ear->last_error = message;
   }
 }
+
+/// 2^53: above it doubles skip whole numbers.
+constexpr double kLargestExact = 9007199254740992.0;
 
 class Fmi3Slave final : public FmuSlave {
  public:
@@ -59,35 +63,14 @@ class Fmi3Slave final : public FmuSlave {
 
   void get(const FmuPort& port, double* values) override {
     for (const ImportedVariable& v : port.variables) {
-      const auto n = static_cast<std::size_t>(v.size);
-      if (v.type == "Float64") {
-        check(fmu_.fmi3GetFloat64(instance_, &v.reference, 1, values, n), "fmi3GetFloat64");
-      } else if (v.type == "Int64" || v.type == "Enumeration") {
-        fetch<fmi3Int64>(fmu_.fmi3GetInt64, v, values);
-      } else if (v.type == "Int32") {
-        fetch<fmi3Int32>(fmu_.fmi3GetInt32, v, values);
-      } else if (v.type == "Boolean") {
-        fetch<fmi3Boolean>(fmu_.fmi3GetBoolean, v, values);
-      } else {
-        refuse(v);
-      }
+      getOne(v, values);
       values += v.size;
     }
   }
   void set(const FmuPort& port, const double* values) override {
     for (const ImportedVariable& v : port.variables) {
-      const auto n = static_cast<std::size_t>(v.size);
-      if (v.type == "Float64") {
-        check(fmu_.fmi3SetFloat64(instance_, &v.reference, 1, values, n), "fmi3SetFloat64");
-      } else if (v.type == "Int64" || v.type == "Enumeration") {
-        give<fmi3Int64>(fmu_.fmi3SetInt64, v, values);
-      } else if (v.type == "Int32") {
-        give<fmi3Int32>(fmu_.fmi3SetInt32, v, values);
-      } else if (v.type == "Boolean") {
-        give<fmi3Boolean>(fmu_.fmi3SetBoolean, v, values);
-      } else {
-        refuse(v);
-      }
+      for (int i = 0; i < v.size; ++i) requireTaken(v, values[i]);
+      setOne(v, values);
       values += v.size;
     }
   }
@@ -112,28 +95,104 @@ class Fmi3Slave final : public FmuSlave {
   }
 
  private:
-  template <typename T, typename Function>
-  void fetch(Function function, const ImportedVariable& v, double* values) {
-    const auto n = static_cast<std::size_t>(v.size);
-    const std::unique_ptr<T[]> whole(new T[n]());
-    check(function(instance_, &v.reference, 1, whole.get(), n), "getting a variable");
-    for (std::size_t i = 0; i < n; ++i) values[i] = static_cast<double>(whole[i]);
+  void getOne(const ImportedVariable& v, double* values) {
+    switch (v.facts->native) {
+      case NativeType::kFloat32:
+        return fetch(fmu_.fmi3GetFloat32, "fmi3GetFloat32", v, values);
+      case NativeType::kFloat64:
+        return fetch(fmu_.fmi3GetFloat64, "fmi3GetFloat64", v, values);
+      case NativeType::kInt8:
+        return fetch(fmu_.fmi3GetInt8, "fmi3GetInt8", v, values);
+      case NativeType::kUInt8:
+        return fetch(fmu_.fmi3GetUInt8, "fmi3GetUInt8", v, values);
+      case NativeType::kInt16:
+        return fetch(fmu_.fmi3GetInt16, "fmi3GetInt16", v, values);
+      case NativeType::kUInt16:
+        return fetch(fmu_.fmi3GetUInt16, "fmi3GetUInt16", v, values);
+      case NativeType::kInt32:
+        return fetch(fmu_.fmi3GetInt32, "fmi3GetInt32", v, values);
+      case NativeType::kUInt32:
+        return fetch(fmu_.fmi3GetUInt32, "fmi3GetUInt32", v, values);
+      case NativeType::kInt64:
+        return fetch(fmu_.fmi3GetInt64, "fmi3GetInt64", v, values);
+      case NativeType::kUInt64:
+        return fetch(fmu_.fmi3GetUInt64, "fmi3GetUInt64", v, values);
+      case NativeType::kBoolean:
+        return fetch(fmu_.fmi3GetBoolean, "fmi3GetBoolean", v, values);
+      case NativeType::kNone:
+        refuse(v);
+    }
   }
-  template <typename T, typename Function>
-  void give(Function function, const ImportedVariable& v, const double* values) {
+  void setOne(const ImportedVariable& v, const double* values) {
+    switch (v.facts->native) {
+      case NativeType::kFloat32:
+        return give(fmu_.fmi3SetFloat32, "fmi3SetFloat32", v, values);
+      case NativeType::kFloat64:
+        return give(fmu_.fmi3SetFloat64, "fmi3SetFloat64", v, values);
+      case NativeType::kInt8:
+        return give(fmu_.fmi3SetInt8, "fmi3SetInt8", v, values);
+      case NativeType::kUInt8:
+        return give(fmu_.fmi3SetUInt8, "fmi3SetUInt8", v, values);
+      case NativeType::kInt16:
+        return give(fmu_.fmi3SetInt16, "fmi3SetInt16", v, values);
+      case NativeType::kUInt16:
+        return give(fmu_.fmi3SetUInt16, "fmi3SetUInt16", v, values);
+      case NativeType::kInt32:
+        return give(fmu_.fmi3SetInt32, "fmi3SetInt32", v, values);
+      case NativeType::kUInt32:
+        return give(fmu_.fmi3SetUInt32, "fmi3SetUInt32", v, values);
+      case NativeType::kInt64:
+        return give(fmu_.fmi3SetInt64, "fmi3SetInt64", v, values);
+      case NativeType::kUInt64:
+        return give(fmu_.fmi3SetUInt64, "fmi3SetUInt64", v, values);
+      case NativeType::kBoolean:
+        return give(fmu_.fmi3SetBoolean, "fmi3SetBoolean", v, values);
+      case NativeType::kNone:
+        refuse(v);
+    }
+  }
+  template <typename T>
+  using Getter = fmi3Status (*)(fmi3Instance, const fmi3ValueReference[], std::size_t, T[],
+                                std::size_t);
+  template <typename T>
+  using Setter = fmi3Status (*)(fmi3Instance, const fmi3ValueReference[], std::size_t, const T[],
+                                std::size_t);
+  template <typename T>
+  void fetch(Getter<T> function, const char* name, const ImportedVariable& v, double* values) {
     const auto n = static_cast<std::size_t>(v.size);
-    const std::unique_ptr<T[]> whole(new T[n]());
-    for (std::size_t i = 0; i < n; ++i) whole[i] = static_cast<T>(values[i]);
-    check(function(instance_, &v.reference, 1, whole.get(), n), "setting a variable");
+    const std::unique_ptr<T[]> row(new T[n]());
+    check(function(instance_, &v.reference, 1, row.get(), n), name);
+    for (std::size_t i = 0; i < n; ++i) {
+      values[i] = static_cast<double>(row[i]);
+      if (v.facts->kind == ValueKind::kInteger && std::abs(values[i]) > kLargestExact) {
+        throw NumericalError(fmt::format(
+            "{}: '{}' is {}, beyond the whole numbers that a connection carries exactly", file_,
+            v.name, row[i]));
+      }
+    }
+  }
+  template <typename T>
+  void give(Setter<T> function, const char* name, const ImportedVariable& v, const double* values) {
+    const auto n = static_cast<std::size_t>(v.size);
+    const std::unique_ptr<T[]> row(new T[n]());
+    for (std::size_t i = 0; i < n; ++i) row[i] = static_cast<T>(values[i]);
+    check(function(instance_, &v.reference, 1, row.get(), n), name);
+  }
+  void requireTaken(const ImportedVariable& v, double value) const {
+    const std::string refusal = refusalOf(v, value);
+    if (refusal.empty()) return;
+    throw NumericalError(
+        fmt::format("{}: '{}' would be set to {}; it {}", file_, v.name, value, refusal));
   }
   [[noreturn]] void refuse(const ImportedVariable& v) const {
     throw InputError(
-        fmt::format("{}: '{}' is of type {}; Float64, Int32, Int64, Enumeration and Boolean can be "
+        fmt::format("{}: '{}' is of type {}; numbers, booleans and enumerations can be "
                     "connected",
                     file_, v.name, v.type));
   }
   void check(fmi3Status status, const char* call) {
     if (status == fmi3OK || status == fmi3Warning) return;
+    fmu_.library.require({call});  // says so if that is why
     throw NumericalError(fmt::format("{}: {} returned {}: {}", file_, call,
                                      status == fmi3Discard ? "discard" : "an error",
                                      ear_.last_error));

@@ -10,6 +10,7 @@
 #include "core/config_reader.hpp"
 #include "core/error.hpp"
 #include "fmi/model_description.hpp"
+#include "fmi/plant_contents.hpp"
 #include "fmi/plant_fmu.hpp"
 #include "fmi/zip_archive.hpp"
 
@@ -38,10 +39,11 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
 /// The sections that the plant is made from, with the URDF beside them.
 ConfigNode plantScenario(const ConfigNode& scenario) {
   ConfigNode out = ConfigNode::map({});
-  for (const char* key :
-       {"name", "summary", "duration_s", "seed", "robot", "plant", "initial", "environment"}) {
+  const auto take = [&](const char* key) {
     if (const ConfigNode* node = scenario.find(key)) out.set(key, *node);
-  }
+  };
+  for (const char* key : {"name", "summary", "duration_s"}) take(key);
+  for (const char* section : kPlantSections) take(section);
   if (scenario.find("fmus")) {
     throw InputError(
         "the scenario has FMUs of its own (section 'fmus'), which an export cannot "

@@ -18,6 +18,9 @@
 namespace ballbot {
 namespace {
 
+/// The socket's end comes when the child is gone and its unpacked files are removed.
+constexpr std::chrono::seconds kTidying{5};
+
 BlobWriter request(FmuRequest kind) {
   BlobWriter out;
   putRequest(out, kind);
@@ -53,7 +56,7 @@ void FmuProcess::start(const std::string& program) {
   pid_ = ::fork();
   if (pid_ == 0) {
     // Only async-signal-safe calls from here to exec.
-    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // an FMU may not listen to anything less
     if (::getppid() != parent) ::_exit(3);
     ::setpgid(0, 0);  // Ctrl-C is the parent's business
     ::fcntl(ends[1], F_SETFD, 0);
@@ -87,12 +90,14 @@ void FmuProcess::open() {
 FmuProcess::~FmuProcess() { end(); }
 
 void FmuProcess::end() {
-  if (socket_ >= 0) ::close(socket_);  // the child sees it and goes
-  if (pid_ <= 0) return;
-  for (int waited_ms = 0; ::waitpid(pid_, nullptr, WNOHANG) == 0; ++waited_ms) {
+  if (socket_ >= 0) ::shutdown(socket_, SHUT_WR);  // the child sees it and goes
+  for (int waited_ms = 0; pid_ > 0 && ::waitpid(pid_, nullptr, WNOHANG) == 0; ++waited_ms) {
     if (waited_ms == 1000) ::kill(pid_, SIGKILL);
     ::usleep(1000);
   }
+  if (socket_ < 0) return;
+  awaitEndOfStream(socket_, kTidying);
+  ::close(socket_);
 }
 
 void FmuProcess::initialize(SimTime start) {
@@ -151,6 +156,7 @@ StateBlob FmuProcess::ask(const BlobWriter& request, const char* what) {
   if (end == WireEnd::kOk) end = receiveBlob(socket_, answer, use_.patience);
   if (end == WireEnd::kTimeout) {
     ::kill(pid_, SIGKILL);
+    awaitEndOfStream(socket_, kTidying);
     lost(fmt::format("no answer to '{}' within {} ms; its process was ended", what,
                      use_.patience.count()));
   }
@@ -162,6 +168,8 @@ StateBlob FmuProcess::ask(const BlobWriter& request, const char* what) {
     throw InputError(fmt::format("FMU '{}': {}", use_.name, text));
   if (status == FmuReply::kNumericalError)
     throw LostParticipantError(use_.name, fmt::format("FMU '{}': {}", use_.name, text));
+  if (status == FmuReply::kOutputError)
+    throw OutputError(fmt::format("FMU '{}': {}", use_.name, text));
   outputs_ = in.getVector();
   if (!use_.digest.empty()) {
     // Two signed halves, low and high, at the end of the row.

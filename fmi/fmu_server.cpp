@@ -1,41 +1,25 @@
 // The process an FMU lives in: one request, one reply.
-#include <filesystem>
+#include <optional>
 
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "core/error.hpp"
-#include "fmi/fmu_description.hpp"
+#include "fmi/fmu_ports.hpp"
 #include "fmi/fmu_process.hpp"
 #include "fmi/fmu_slave.hpp"
 #include "fmi/fmu_wire.hpp"
+#include "fmi/scratch_folder.hpp"
 #include "fmi/zip_archive.hpp"
 
 namespace ballbot {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// A folder that goes when the object goes.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (fs::temp_directory_path() / "ballbot_fmu_XXXXXX").string();
-    if (!::mkdtemp(pattern.data())) throw OutputError(pattern + ": cannot be created");
-    path_ = pattern;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 class FmuServer {
  public:
+  /// The other end of `socket` sees its end when this process is gone and its folder, too.
+  explicit FmuServer(int socket) : socket_(socket) {}
+
   /// Acts on one request. @throw Error
   StateBlob act(BlobReader& in) {
     const auto kind = in.get<FmuRequest>();
@@ -77,7 +61,8 @@ class FmuServer {
   void open(BlobReader& in) {
     const std::string name = getText(in), file = getText(in);
     const FmuDescription fmu = readFmuDescription(file);
-    unpackZip(file, folder_.path());
+    folder_.emplace(socket_);
+    unpackZip(file, folder_->path());
     inputs_ = ports(in, fmu);
     output_ports_ = ports(in, fmu);
     for (auto count = in.get<std::uint64_t>(); count > 0; --count) {
@@ -88,7 +73,7 @@ class FmuServer {
     std::size_t size = 0;
     for (const FmuPort& port : output_ports_) size += static_cast<std::size_t>(port.size);
     outputs_.assign(size, 0.0);
-    slave_ = loadFmu(fmu, folder_.path(), name, {});
+    slave_ = loadFmu(fmu, folder_->path(), name, {});
   }
   static std::vector<FmuPort> ports(BlobReader& in, const FmuDescription& fmu) {
     std::vector<FmuPort> out;
@@ -121,7 +106,8 @@ class FmuServer {
     }
   }
 
-  ScratchFolder folder_;
+  int socket_;
+  std::optional<ScratchFolder> folder_;  // goes last
   std::unique_ptr<FmuSlave> slave_;
   std::vector<FmuPort> inputs_, output_ports_;
   std::vector<std::pair<FmuPort, double>> parameters_;
@@ -131,7 +117,8 @@ class FmuServer {
 }  // namespace
 
 int serveFmu(int socket) {
-  FmuServer server;
+  ::fcntl(socket, F_SETFD, FD_CLOEXEC);  // programs that an FMU starts must not hold it open
+  FmuServer server(socket);
   StateBlob message;
   while (receiveBlob(socket, message, std::chrono::milliseconds{0}) == WireEnd::kOk) {
     FmuReply status = FmuReply::kOk;
@@ -142,6 +129,9 @@ int serveFmu(int socket) {
       state = server.act(in);
     } catch (const NumericalError& e) {
       status = FmuReply::kNumericalError;
+      text = e.what();
+    } catch (const OutputError& e) {
+      status = FmuReply::kOutputError;
       text = e.what();
     } catch (const std::exception& e) {
       status = FmuReply::kInputError;

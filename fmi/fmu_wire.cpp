@@ -83,4 +83,11 @@ WireEnd receiveBlob(int socket, StateBlob& blob, std::chrono::milliseconds patie
   return receiveBytes(socket, blob.data(), blob.size(), until, for_ever);
 }
 
+void awaitEndOfStream(int socket, std::chrono::milliseconds patience) {
+  const Clock::time_point until = Clock::now() + patience;
+  std::uint8_t unwanted = 0;
+  while (receiveBytes(socket, &unwanted, 1, until, false) == WireEnd::kOk) {
+  }
+}
+
 }  // namespace ballbot

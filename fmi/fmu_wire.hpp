@@ -19,7 +19,7 @@ enum class FmuRequest : std::uint8_t {
   kSave,
   kRestore
 };
-enum class FmuReply : std::uint8_t { kOk, kInputError, kNumericalError };
+enum class FmuReply : std::uint8_t { kOk, kInputError, kNumericalError, kOutputError };
 
 constexpr const char* kFmuRequestKind = "fmu request";
 constexpr const char* kFmuReplyKind = "fmu reply";
@@ -33,5 +33,8 @@ enum class WireEnd { kOk, kClosed, kTimeout };
 WireEnd sendBlob(int socket, const StateBlob& blob);
 /// Waits for ever if `patience` is zero.
 WireEnd receiveBlob(int socket, StateBlob& blob, std::chrono::milliseconds patience);
+
+/// Reads until the other end is closed by all who hold it, or patience is over.
+void awaitEndOfStream(int socket, std::chrono::milliseconds patience);
 
 }  // namespace ballbot

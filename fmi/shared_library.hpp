@@ -1,5 +1,7 @@
 #pragma once
 
+#include <initializer_list>
+#include <set>
 #include <string>
 
 namespace ballbot {
@@ -12,17 +14,21 @@ class SharedLibrary {
   /// @throw InputError with the loader's own words.
   explicit SharedLibrary(const std::string& path);
 
-  /// @throw InputError if there is no such function.
+  /// The function of that name. In place of one that is missing comes one that returns 3, which is
+  /// an error in both versions of FMI: many FMUs lack what a use of them does not need.
   template <typename Function>
-  Function find(const char* name) const {
+  Function find(const char* name) {
     return reinterpret_cast<Function>(symbol(name));
   }
+  /// @throw InputError if one of these was looked for and is missing; names it.
+  void require(std::initializer_list<const char*> names) const;
 
  private:
-  void* symbol(const char* name) const;
+  void* symbol(const char* name);
 
   std::string path_;
   void* handle_;
+  std::set<std::string> missing_;
 };
 
 }  // namespace ballbot

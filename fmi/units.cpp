@@ -9,7 +9,8 @@ namespace ballbot {
 
 const std::vector<FmuUnit>& fmuUnits() {
   //                                                   name, base, factor, kg, m, s, rad
-  static const std::vector<FmuUnit> units = {{"s", true, 1, 0, 0, 1, 0},
+  static const std::vector<FmuUnit> units = {{"1", true, 1, 0, 0, 0, 0},
+                                             {"s", true, 1, 0, 0, 1, 0},
                                              {"m", true, 1, 0, 1, 0, 0},
                                              {"kg", true, 1, 1, 0, 0, 0},
                                              {"rad", true, 1, 0, 0, 0, 1},
@@ -33,6 +34,10 @@ const std::vector<FmuUnit>& fmuUnits() {
 bool sameUnit(const FmuUnit& a, const FmuUnit& b) {
   if (!a.has_base || !b.has_base) return a.name == b.name;
   return a.factor == b.factor && a.kg == b.kg && a.m == b.m && a.s == b.s && a.rad == b.rad;
+}
+
+std::string unitName(const std::string& unit, bool real) {
+  return unit.empty() && real ? "1" : unit;
 }
 
 const FmuUnit& fmuUnit(const std::string& name) {

@@ -20,6 +20,10 @@ const std::vector<FmuUnit>& fmuUnits();
 /// base units, or equal names where one has none.
 bool sameUnit(const FmuUnit& a, const FmuUnit& b);
 
+/// The name of the unit of one of our own variables: a real that has none is a plain number, unit
+/// "1", so that importers can tell "none" from "forgotten"; counts and choices have no unit.
+std::string unitName(const std::string& unit, bool real);
+
 /// The unit of that name. @throw Error if there is none: every unit of a variable is defined.
 const FmuUnit& fmuUnit(const std::string& name);
 

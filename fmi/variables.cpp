@@ -2,6 +2,7 @@
 
 #include "core/config_node.hpp"
 #include "fmi/plant_parameters.hpp"
+#include "fmi/units.hpp"
 #include "model/signal_table.hpp"
 
 namespace ballbot {
@@ -14,7 +15,7 @@ FmuVariable variableOf(const std::string& prefix, const Signal<Frame>& signal, V
   v.type = signal.kind == SignalKind::kCount ? VariableType::kInteger : VariableType::kReal;
   v.role = role;
   v.continuous = signal.kind == SignalKind::kReal;
-  v.unit = signal.unit;
+  v.unit = unitName(signal.unit, v.type == VariableType::kReal);
   v.description = signal.description;
   v.size = signal.size;
   return v;
@@ -54,7 +55,7 @@ FmuVariables::FmuVariables(const ConfigNode& scenario) {
     v.name = p.path;
     v.type = p.type;
     v.role = VariableRole::kParameter;
-    v.unit = p.unit;
+    v.unit = unitName(p.unit, p.type == VariableType::kReal);
     v.description = p.description;
     v.choices = p.choices;
     v.start = parameterValue(p, scenario);

@@ -1,5 +1,7 @@
 #include "fmi/zip_archive.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 
@@ -43,24 +45,104 @@ Archive openArchive(const std::string& path) {
   throw InputError(fmt::format("{}: is not an archive that can be read: {}", path, why));
 }
 
-std::string readEntry(zip_t* archive, zip_uint64_t index, const std::string& path) {
-  zip_stat_t stat;
-  zip_file_t* file = nullptr;
-  if (zip_stat_index(archive, index, 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) ||
-      !(file = zip_fopen_index(archive, index, 0))) {
-    throw InputError(
-        fmt::format("{}: entry {} cannot be read: {}", path, index, zip_strerror(archive)));
+/// An open entry. Its length is what the archive says; more than that never comes out of it.
+class Entry {
+ public:
+  Entry(zip_t* archive, zip_uint64_t index, const std::string& path) : path_(path) {
+    zip_stat_t stat;
+    const bool known =
+        zip_stat_index(archive, index, 0, &stat) == 0 && (stat.valid & ZIP_STAT_SIZE) != 0;
+    file_.reset(known ? zip_fopen_index(archive, index, 0) : nullptr);
+    if (!file_) {
+      throw InputError(
+          fmt::format("{}: entry {} cannot be read: {}", path, index, zip_strerror(archive)));
+    }
+    size_ = left_ = stat.size;
+    const char* name = zip_get_name(archive, index, ZIP_FL_ENC_GUESS);
+    name_ = name ? name : "";
   }
-  std::string content;
-  char buffer[65536];
-  zip_int64_t got = 0;
-  while ((got = zip_fread(file, buffer, sizeof buffer)) > 0)
-    content.append(buffer, static_cast<std::size_t>(got));
-  zip_fclose(file);
-  if (got < 0 || content.size() != stat.size) {
-    throw InputError(fmt::format("{}: '{}' is damaged", path, stat.name));
+  std::uint64_t size() const { return size_; }
+
+  /// Hands the content to `take`, piece by piece. @throw InputError if it is damaged.
+  template <typename Take>
+  void read(Take&& take) {
+    std::vector<char> buffer(65536);
+    zip_int64_t got = 0;
+    while ((got = zip_fread(file_.get(), buffer.data(), buffer.size())) > 0) {
+      if (static_cast<std::uint64_t>(got) > left_) break;
+      left_ -= static_cast<std::uint64_t>(got);
+      take(buffer.data(), static_cast<std::size_t>(got));
+    }
+    if (got != 0 || left_ != 0) throw InputError(fmt::format("{}: '{}' is damaged", path_, name_));
   }
-  return content;
+
+ private:
+  struct Close {
+    void operator()(zip_file_t* file) const { zip_fclose(file); }
+  };
+  const std::string& path_;
+  std::string name_;
+  std::unique_ptr<zip_file_t, Close> file_;
+  std::uint64_t size_ = 0, left_ = 0;
+};
+
+std::string readableSize(std::uint64_t bytes) {
+  return bytes < (std::uint64_t{10} << 20) ? fmt::format("{} bytes", bytes)
+                                           : fmt::format("{} MiB", bytes >> 20);
+}
+
+/// Where an entry goes. @throw InputError if that is no place in the folder.
+fs::path placeOf(const std::string& name, const std::string& path) {
+  const fs::path place = fs::path(name).lexically_normal();
+  if (name.empty() || place == ".") {
+    throw InputError(fmt::format("{}: has an entry without a name", path));
+  }
+  if (place.is_absolute() || *place.begin() == "..") {
+    throw InputError(fmt::format("{}: entry '{}' would land outside the folder", path, name));
+  }
+  return place;
+}
+
+/// Makes a folder of the archive. A file of its own may stand in the way, or its name be too long.
+void makeFolder(const fs::path& folder, const std::string& path) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && fs::is_directory(folder)) return;
+  const std::string why = error ? error.message() : "a file has that name";
+  const std::string text =
+      fmt::format("{}: cannot be unpacked: {}: {}", path, folder.string(), why);
+  if (error == std::errc::no_space_on_device || error == std::errc::permission_denied ||
+      error == std::errc::read_only_file_system) {
+    throw OutputError(text);
+  }
+  throw InputError(text);
+}
+
+bool mayBeExecuted(zip_t* archive, zip_uint64_t index) {
+  zip_uint8_t system = 0;
+  zip_uint32_t attributes = 0;
+  return zip_file_get_external_attributes(archive, index, 0, &system, &attributes) == 0 &&
+         system == ZIP_OPSYS_UNIX && (attributes >> 16 & S_IXUSR) != 0;
+}
+
+void writeEntry(Entry& entry, const fs::path& target, bool executable, const std::string& path) {
+  const auto close = [](FILE* f) { std::fclose(f); };
+  std::unique_ptr<FILE, decltype(close)> file(std::fopen(target.c_str(), "wb"), close);
+  if (!file) {
+    const std::string text =
+        fmt::format("{}: cannot be unpacked: {}: {}", path, target.string(), std::strerror(errno));
+    if (errno == EISDIR || errno == ENAMETOOLONG || errno == ENOTDIR) throw InputError(text);
+    throw OutputError(text);
+  }
+  const auto full = [&] {
+    return OutputError(
+        fmt::format("{}: cannot be written: {}", target.string(), std::strerror(errno)));
+  };
+  entry.read([&](const char* bytes, std::size_t size) {
+    if (std::fwrite(bytes, 1, size, file.get()) != size) throw full();
+  });
+  if (executable) ::fchmod(::fileno(file.get()), 0755);
+  if (std::fclose(file.release()) != 0) throw full();
 }
 
 }  // namespace
@@ -91,39 +173,48 @@ void writeZip(const std::string& path, const std::vector<ZipEntry>& entries) {
   archive.release();  // closed
 }
 
-std::string readFromZip(const std::string& path, const std::string& name) {
+std::string readFromZip(const std::string& path, const std::string& name, std::uint64_t longest) {
   const Archive archive = openArchive(path);
   const zip_int64_t index = zip_name_locate(archive.get(), name.c_str(), 0);
   if (index < 0) throw InputError(fmt::format("{}: has no '{}'; is it an FMU?", path, name));
-  return readEntry(archive.get(), static_cast<zip_uint64_t>(index), path);
+  Entry entry(archive.get(), static_cast<zip_uint64_t>(index), path);
+  if (entry.size() > longest) {
+    throw InputError(fmt::format("{}: '{}' unpacks to {}, must be {} at most", path, name,
+                                 readableSize(entry.size()), readableSize(longest)));
+  }
+  std::string content;
+  entry.read([&](const char* bytes, std::size_t size) { content.append(bytes, size); });
+  return content;
 }
 
 bool zipHas(const std::string& path, const std::string& name) {
   return zip_name_locate(openArchive(path).get(), name.c_str(), 0) >= 0;
 }
 
-void unpackZip(const std::string& path, const std::string& folder) {
+void unpackZip(const std::string& path, const std::string& folder, const UnpackLimits& limits) {
   const Archive archive = openArchive(path);
   const zip_int64_t count = zip_get_num_entries(archive.get(), 0);
+  if (count > limits.entries) {
+    throw InputError(
+        fmt::format("{}: holds {} files, must be {} at most", path, count, limits.entries));
+  }
+  std::uint64_t left = limits.bytes;
   for (zip_uint64_t i = 0; i < static_cast<zip_uint64_t>(count); ++i) {
-    const std::string name = zip_get_name(archive.get(), i, 0);
-    const fs::path relative = fs::path(name).lexically_normal();
-    if (relative.is_absolute() || relative.begin()->string() == "..") {
-      throw InputError(fmt::format("{}: entry '{}' would land outside the folder", path, name));
-    }
-    const fs::path target = fs::path(folder) / relative;
-    if (!name.empty() && name.back() == '/') {
-      fs::create_directories(target);
+    const char* raw_name = zip_get_name(archive.get(), i, 0);
+    const std::string name = raw_name ? raw_name : "";
+    const fs::path target = fs::path(folder) / placeOf(name, path);
+    if (name.back() == '/') {
+      makeFolder(target, path);
       continue;
     }
-    fs::create_directories(target.parent_path());
-    const std::string content = readEntry(archive.get(), i, path);
-    FILE* file = std::fopen(target.c_str(), "wb");
-    const bool written =
-        file && std::fwrite(content.data(), 1, content.size(), file) == content.size();
-    if ((file && std::fclose(file) != 0) || !written) {
-      throw OutputError(fmt::format("{}: cannot be written", target.string()));
+    makeFolder(target.parent_path(), path);
+    Entry entry(archive.get(), i, path);
+    if (entry.size() > left) {
+      throw InputError(fmt::format("{}: unpacks to more than {}, which it must not", path,
+                                   readableSize(limits.bytes)));
     }
+    left -= entry.size();
+    writeEntry(entry, target, mayBeExecuted(archive.get(), i), path);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "report/json_text.hpp"
 #include "report/page_template.hpp"
 #include "report/report_check.hpp"
 #include "report/report_json.hpp"
@@ -36,8 +37,7 @@ std::string htmlEscaped(const std::string& text) {
 /// JSON that may stand inside a script element: "</script>" or "<!--" in a text would end it.
 std::string scriptSafe(const nlohmann::ordered_json& json) {
   constexpr int kNoIndent = -1;
-  const std::string text =
-      json.dump(kNoIndent, ' ', false, nlohmann::json::error_handler_t::replace);
+  const std::string text = jsonText(json, kNoIndent);
   std::string out;
   out.reserve(text.size());
   for (const char c : text) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "report/json_text.hpp"
 
 namespace ballbot {
 namespace {
@@ -22,7 +23,7 @@ std::string CaseResult::toJson() const {
   j["metrics"] = metrics;
   j["trajectory_digest"] = trajectory_digest;
   j["cpu_s"] = cpu_s;
-  return j.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return jsonText(j, -1);
 }
 
 CaseResult CaseResult::fromJson(const std::string& text) {

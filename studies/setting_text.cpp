@@ -5,42 +5,19 @@
 
 #include <fmt/format.h>
 
+#include "core/yaml_text.hpp"
+
 namespace ballbot {
-namespace {
-
-bool isPlain(const std::string& text) {
-  const auto plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '+' ||
-           c == '/' || c == '-';
-  };
-  return !text.empty() && text != "null" && std::all_of(text.begin(), text.end(), plain) &&
-         (text[0] != '-' ||
-          (text.size() > 1 &&
-           (std::isdigit(static_cast<unsigned char>(text[1])) || text[1] == '.')));
-}
-
-std::string scalarText(const ConfigNode& node) {
-  if (!node.quoted() && isPlain(node.text())) return node.text();
-  std::string out = "\"";
-  for (const char c : node.text()) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
-}
-
-}  // namespace
-
 std::string toFlowYaml(const ConfigNode& value) {
   std::string out;
   switch (value.kind()) {
     case ConfigNode::Kind::kNull:
       return "null";
     case ConfigNode::Kind::kScalar:
-      return scalarText(value);
+      return yamlText(value);
     case ConfigNode::Kind::kMap:
       for (const auto& [key, child] : value.entries()) {
-        out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", key, toFlowYaml(child));
+        out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", yamlText(key), toFlowYaml(child));
       }
       return "{" + out + "}";
     case ConfigNode::Kind::kList:

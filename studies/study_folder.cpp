@@ -16,6 +16,7 @@
 #include "experiment/run_folder.hpp"
 #include "experiment/scenario_variants.hpp"
 #include "experiment/text_file.hpp"
+#include "report/json_text.hpp"
 #include "studies/result_log.hpp"
 
 namespace ballbot {
@@ -97,7 +98,7 @@ StudyFolder StudyFolder::create(const std::string& wanted, const Study& study,
   ConfigNode tree = study.tree;
   tree.set("scenario", ConfigNode::scalar("scenario.yaml", false, {}));
   writeTextFile(path + "/study.yaml", toYaml(tree));
-  writeTextFile(path + "/manifest.json", manifest(study, scenario).dump(2) + "\n");
+  writeTextFile(path + "/manifest.json", jsonText(manifest(study, scenario)) + "\n");
   return folder;
 }
 

@@ -5,9 +5,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "experiment/loop_analysis.hpp"
 #include "core/angle.hpp"
+#include "experiment/loop_analysis.hpp"
 #include "experiment/text_file.hpp"
+#include "report/json_text.hpp"
 #include "tools/bode_figure.hpp"
 #include "tools/commands.hpp"
 
@@ -129,7 +130,7 @@ ExitCode bode(const BodeArguments& arguments) {
   if (!arguments.csv.empty()) writeTextFile(arguments.csv, csvText(analysis));
   if (!arguments.out.empty()) writeTextFile(arguments.out, bodeFigure(scenario.name, analysis));
   if (arguments.json) {
-    fmt::print("{}\n", toJson(scenario, analysis).dump(2));
+    fmt::print("{}\n", jsonText(toJson(scenario, analysis)));
   } else {
     fmt::print("{}", tableText(scenario, analysis));
   }

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -8,12 +6,14 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "cosim/log_compare.hpp"
 #include "experiment/build_info.hpp"
 #include "experiment/checkpoint_files.hpp"
 #include "experiment/run_experiment.hpp"
 #include "experiment/text_file.hpp"
+#include "report/json_text.hpp"
 #include "tools/commands.hpp"
 #include "tools/interrupt.hpp"
 #include "tools/progress.hpp"
@@ -89,7 +89,7 @@ ExitCode checkRun(const CheckArguments& arguments) {
       out["time_s"] = toSeconds(difference->time);
       if (difference->channel) out["channel"] = channelName(*difference->channel);
     }
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", jsonText(out));
   } else {
     fmt::print("{}\n", text);
     if (!identical) fmt::print("See docs/troubleshooting/digest-differs.md\n");

@@ -6,6 +6,7 @@
 #include "cosim/log_compare.hpp"
 #include "experiment/run_folder.hpp"
 #include "experiment/text_file.hpp"
+#include "report/json_text.hpp"
 #include "tools/commands.hpp"
 
 namespace ballbot {
@@ -39,7 +40,7 @@ ExitCode compareRuns(const CompareArguments& arguments) {
     for (const auto& [name, value] : metrics_a.items()) {
       if (metrics_b.contains(name)) out["metrics"][name] = {value, metrics_b[name]};
     }
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", jsonText(out));
   } else {
     fmt::print("{}\n", difference ? difference->text : "identical");
     fmt::print("{:<32} {:>14} {:>14}\n", "metric", "first", "second");

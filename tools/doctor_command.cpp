@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "report/json_text.hpp"
 #include "tools/commands.hpp"
 #include "tools/machine_checks.hpp"
 
@@ -31,7 +32,7 @@ ExitCode doctor(bool json) {
     for (const MachineCheck& c : checks) {
       out["checks"].push_back({{"name", c.name}, {"level", word(c.level)}, {"found", c.found}, {"mend", c.mend}});
     }
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", jsonText(out));
   } else {
     for (const MachineCheck& c : checks) {
       fmt::print("{:<17} {:<8} {}\n", c.name, word(c.level), c.found);

@@ -13,6 +13,7 @@
 #include "hil/emulator/serve_drives.hpp"
 #include "hil/open_can_bus.hpp"
 #include "hil/realtime_thread.hpp"
+#include "report/json_text.hpp"
 #include "tools/bench_scenario.hpp"
 #include "tools/commands.hpp"
 #include "tools/interrupt.hpp"
@@ -59,7 +60,7 @@ ExitCode emulateDrives(const DrivesArguments& a) {
     out["robot_s"] = bench.robotSeconds();
     out["largest_tilt_deg"] = bench.largestTilt() * kDegPerRad;
     out["torque_on"] = bench.anyEnergized();
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", jsonText(out));
   }
   return ExitCode::kPassed;
 }

@@ -14,6 +14,7 @@
 #include "experiment/run_folder.hpp"
 #include "experiment/text_file.hpp"
 #include "experiment/verdict.hpp"
+#include "report/json_text.hpp"
 #include "tools/commands.hpp"
 #include "tools/table_export.hpp"
 
@@ -89,7 +90,7 @@ ExitCode estimateRun(const EstimateArguments& a) {
   tables.push_back(estimate.errors);
   std::vector<std::string> files = exportCsv(tables, from.out);
   files.push_back(from.out + "/estimate.json");
-  writeTextFile(files.back(), toJson(estimate).dump(2) + "\n");
+  writeTextFile(files.back(), jsonText(toJson(estimate)) + "\n");
   if (!a.no_report) {
     files.push_back(from.out + "/report.html");
     const bool same_settings = a.overrides.empty() && a.scenario.empty();
@@ -98,7 +99,7 @@ ExitCode estimateRun(const EstimateArguments& a) {
   if (a.json) {
     nlohmann::ordered_json out = toJson(estimate);
     out["files"] = files;
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", jsonText(out));
   } else {
     printTable(estimate, files);
   }

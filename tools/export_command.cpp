@@ -6,6 +6,7 @@
 #include "cosim/log_reader.hpp"
 #include "experiment/log_tables.hpp"
 #include "experiment/run_folder.hpp"
+#include "report/json_text.hpp"
 #include "tools/commands.hpp"
 #include "tools/table_export.hpp"
 
@@ -34,7 +35,7 @@ ExitCode exportRun(const ExportArguments& a) {
     out["files"] = files;
     out["cut_off"] = log.cut_off;
     for (const LogTable& t : tables) out["rows"][t.name] = t.rowCount();
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", jsonText(out));
   } else {
     for (const std::string& file : files) fmt::print("{}\n", file);
     if (log.cut_off) fmt::print(stderr, "{}: the log ends in the middle of an event; all before it was exported\n", a.run);

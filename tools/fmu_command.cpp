@@ -8,6 +8,7 @@
 #include "experiment/scenario.hpp"
 #include "fmi/fmu_export.hpp"
 #include "fmi/fmu_process.hpp"
+#include "report/json_text.hpp"
 #include "tools/commands.hpp"
 #include "tools/fmu_facts.hpp"
 
@@ -29,9 +30,9 @@ ExitCode exportPlant(const FmuArguments& arguments) {
   how.libraries_folder = defaultFmuLibraries();
   exportFmu(scenario.tree, scenario.urdf_path, how, arguments.out);
   if (arguments.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"file", arguments.out},
-                                              {"fmi_version", arguments.fmi_version}}
-                           .dump(2));
+    const nlohmann::ordered_json made{{"file", arguments.out},
+                                      {"fmi_version", arguments.fmi_version}};
+    fmt::print("{}\n", jsonText(made));
   } else {
     fmt::print("{}\n", arguments.out);
   }
@@ -41,7 +42,7 @@ ExitCode exportPlant(const FmuArguments& arguments) {
 ExitCode showFmu(const FmuArguments& arguments) {
   const FmuDescription fmu = readFmuDescription(arguments.info);
   if (arguments.json) {
-    fmt::print("{}\n", fmuFactsJson(fmu).dump(2));
+    fmt::print("{}\n", jsonText(fmuFactsJson(fmu)));
   } else {
     fmt::print("{}", fmuFactsText(fmu));
   }

@@ -4,7 +4,10 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+
+#include "fmi/fmu_ports.hpp"
 
 namespace ballbot {
 namespace {
@@ -25,25 +28,23 @@ const char* roleText(VariableRole role) {
   return "local";
 }
 
-/// Variables as connections name them: the scalars x[1], x[2], ... of FMI 2 are one row x.
-std::vector<FmuPort> portsOf(const FmuDescription& fmu) {
-  std::vector<FmuPort> out;
-  std::set<std::string> seen;
-  for (const ImportedVariable& v : fmu.variables) {
-    const std::string row = v.name.substr(0, v.name.find('['));
-    FmuPort port = findPortOr(fmu, row);
-    if (port.size == 0) port = findPortOr(fmu, v.name);
-    if (seen.insert(port.name).second && !port.variables.empty()) out.push_back(std::move(port));
-  }
-  return out;
+/// "3", "3,3"; of a row that counts from 0 the last number.
+std::vector<std::size_t> shownDimensions(const FmuPort& port) {
+  return port.first_index == 0 ? std::vector{port.dimensions.front() - 1} : port.dimensions;
 }
 
 std::string portText(const FmuPort& port) {
   const ImportedVariable& v = port.first();
-  const std::string name = port.size == 1 ? port.name : fmt::format("{}[{}]", port.name, port.size);
+  const std::string name =
+      port.dimensions.empty()
+          ? port.name
+          : fmt::format("{}[{}{}]", port.name, port.first_index == 0 ? "0.." : "",
+                        fmt::join(shownDimensions(port), ","));
   const bool parameter = v.role == VariableRole::kParameter;
-  return fmt::format("  {:<52} {:<12} {:<8} {}{}\n", name, v.type, v.unit, v.description,
-                     parameter ? fmt::format(" (start: {})", v.start) : "");
+  return fmt::format(
+      "  {:<52} {:<12} {:<8} {}{}{}\n", name, v.type, v.unit, v.description,
+      parameter ? fmt::format(" (start: {})", v.start) : "",
+      port.aliases.empty() ? "" : fmt::format(" (also: {})", fmt::join(port.aliases, ", ")));
 }
 
 const char* yesOrNo(bool yes) { return yes ? "yes" : "no"; }
@@ -77,7 +78,7 @@ std::string fmuFactsText(const FmuDescription& fmu) {
       "  outputs that follow inputs at once: {}\n",
       yesOrNo(fmu.saves_state), yesOrNo(fmu.variable_steps), yesOrNo(fmu.needs_execution_tool),
       yesOrNo(fmu.has_binary), fmu.binaryPath(), feedThroughCount(fmu));
-  const std::vector<FmuPort> ports = portsOf(fmu);
+  const std::vector<FmuPort> ports = allPorts(fmu);
   const std::pair<VariableRole, const char*> groups[] = {{VariableRole::kInput, "inputs"},
                                                          {VariableRole::kOutput, "outputs"},
                                                          {VariableRole::kParameter, "parameters"},
@@ -93,7 +94,8 @@ std::string fmuFactsText(const FmuDescription& fmu) {
 }
 
 nlohmann::ordered_json fmuFactsJson(const FmuDescription& fmu) {
-  nlohmann::ordered_json out;
+  using nlohmann::ordered_json;
+  ordered_json out;
   out["file"] = fmu.file;
   out["fmi_version"] = fmu.fmi_version;
   out["model_name"] = fmu.model_name;
@@ -103,8 +105,8 @@ nlohmann::ordered_json fmuFactsJson(const FmuDescription& fmu) {
   out["variable_steps"] = fmu.variable_steps;
   out["needs_execution_tool"] = fmu.needs_execution_tool;
   out["has_binary"] = fmu.has_binary;
-  out["variables"] = nlohmann::ordered_json::array();
-  for (const FmuPort& port : portsOf(fmu)) {
+  out["variables"] = ordered_json::array();
+  for (const FmuPort& port : allPorts(fmu)) {
     const ImportedVariable& v = port.first();
     out["variables"].push_back({{"name", port.name},
                                 {"causality", roleText(v.role)},
@@ -113,6 +115,10 @@ nlohmann::ordered_json fmuFactsJson(const FmuDescription& fmu) {
                                 {"unit", v.unit},
                                 {"start", v.start},
                                 {"description", v.description}});
+    ordered_json& entry = out["variables"].back();
+    if (!port.dimensions.empty()) entry["dimensions"] = port.dimensions;
+    if (port.first_index != 1) entry["first_index"] = port.first_index;
+    if (!port.aliases.empty()) entry["aliases"] = port.aliases;
   }
   return out;
 }

@@ -15,6 +15,7 @@
 #include "hil/record_writer.hpp"
 #include "hil/rehearsal/fault_table.hpp"
 #include "hil/stepped_runner.hpp"
+#include "report/json_text.hpp"
 #include "tools/bench_report.hpp"
 #include "tools/bench_scenario.hpp"
 #include "tools/commands.hpp"
@@ -51,7 +52,7 @@ ExitCode showFaults(bool json) {
     fmt::print("{:<4} {:<54} {:<26} {:>5} {:>6}  {}\n", r.held ? "ok" : "MISS", r.fault, r.expected,
                r.bound_cycles, r.measured_cycles, r.reason);
   }
-  if (json) fmt::print("{}\n", nlohmann::ordered_json{{"rows", list}, {"held", held}}.dump(2));
+  if (json) fmt::print("{}\n", jsonText(nlohmann::ordered_json{{"rows", list}, {"held", held}}));
   return held ? ExitCode::kPassed : ExitCode::kRequirementMissed;
 }
 
@@ -80,7 +81,7 @@ ExitCode showBench(const HilArguments& a) {
   const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
   const OpenBuses buses(config);
   const auto nodes = checkBench(config, buses.ends, std::chrono::milliseconds(200));
-  fmt::print("{}", a.json ? checkJson(nodes).dump(2) + "\n" : checkTable(nodes));
+  fmt::print("{}", a.json ? jsonText(checkJson(nodes)) + "\n" : checkTable(nodes));
   return allGood(nodes) ? ExitCode::kPassed : ExitCode::kRequirementMissed;
 }
 
@@ -122,7 +123,7 @@ ExitCode serveBench(const HilArguments& a) {
     report = benchJson(runner.bench(), runner.io());
     report["realtime"] = realtimeJson(runner.statistics());
   }
-  fmt::print("{}", a.json ? report.dump(2) + "\n" : benchText(report));
+  fmt::print("{}", a.json ? jsonText(report) + "\n" : benchText(report));
   if (!fault.empty()) throw LostParticipantError("bench", "hil: " + fault);
   return served.end == ServeEnd::kInterrupted ? ExitCode::kInterrupted : ExitCode::kPassed;
 }

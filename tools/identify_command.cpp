@@ -17,6 +17,7 @@
 #include "hil/stepped_runner.hpp"
 #include "model/actuator_response.hpp"
 #include "plant/plant_config.hpp"
+#include "report/json_text.hpp"
 #include "tools/bench_report.hpp"
 #include "tools/bench_scenario.hpp"
 #include "tools/commands.hpp"
@@ -136,7 +137,7 @@ ExitCode identifyOnBench(IdentifyArguments a) {
       j["bench"] = benchJson(realtime->bench(), realtime->io());
       j["realtime"] = realtimeJson(realtime->statistics());
     }
-    fmt::print("{}\n", j.dump(2));
+    fmt::print("{}\n", jsonText(j));
   } else {
     fmt::print("{}", yaml);
   }

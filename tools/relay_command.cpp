@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cosim/relay.hpp"
+#include "report/json_text.hpp"
 #include "tools/commands.hpp"
 #include "tools/interrupt.hpp"
 
@@ -33,7 +34,7 @@ ExitCode runRelay(RelayArguments a) {
   const RelayReport report = relay(a.options);
   const nlohmann::ordered_json json = {{"requests", toJson(report.requests)}, {"replies", toJson(report.replies)}};
   if (a.json) {
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", jsonText(json));
   } else {
     for (const auto& [direction, counts] : json.items()) {
       fmt::print("{}: {} received, {} lost, {} duplicated, {} held back, {} sent\n", direction,

@@ -8,6 +8,7 @@
 
 #include "experiment/run_record.hpp"
 #include "experiment/text_file.hpp"
+#include "report/json_text.hpp"
 #include "tools/commands.hpp"
 #include "tools/interrupt.hpp"
 #include "tools/progress.hpp"
@@ -115,7 +116,7 @@ ExitCode reproduce(const ReproduceArguments& a) {
   const std::string page = a.out + "/index.html";
   writeTextFile(page, reproductionPage(done, comparisons));
   if (a.json) {
-    fmt::print("{}\n", toJson(scenarios, done, comparisons, passed, page).dump(2));
+    fmt::print("{}\n", jsonText(toJson(scenarios, done, comparisons, passed, page)));
   } else {
     fmt::print("{}", tableText(done, comparisons, page));
   }

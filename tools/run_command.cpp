@@ -12,6 +12,7 @@
 #include "experiment/run_experiment.hpp"
 #include "experiment/run_record.hpp"
 #include "model/robot_notes.hpp"
+#include "report/json_text.hpp"
 #include "tools/commands.hpp"
 #include "tools/interrupt.hpp"
 #include "tools/progress.hpp"
@@ -99,7 +100,7 @@ ExitCode runScenario(const RunArguments& arguments) {
   if (arguments.json) {
     nlohmann::ordered_json json = summaryJson(scenario, result);
     json["run_folder"] = result.folder.path();
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", jsonText(json));
   } else {
     fmt::print("{}", resultTable(scenario, result));
   }

@@ -13,6 +13,7 @@
 #include "core/number_text.hpp"
 #include "core/yaml_file.hpp"
 #include "experiment/scenario_variants.hpp"
+#include "report/json_text.hpp"
 #include "studies/case_check.hpp"
 #include "studies/setting_text.hpp"
 #include "studies/slurm_launcher.hpp"
@@ -165,7 +166,7 @@ ExitCode runStudy(const StudyArguments& a) {
   findings.jobs = a.launcher == "local" ? (a.jobs > 0 ? a.jobs : processors()) : 0;
   writeStudyOutput(study, engine, folder, findings);
   if (a.json) {
-    fmt::print("{}\n", studySummary(study, engine, folder, findings).dump(2));
+    fmt::print("{}\n", jsonText(studySummary(study, engine, folder, findings)));
   } else {
     fmt::print("{}", studyText(study, engine, folder, findings));
   }

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "experiment/text_file.hpp"
+#include "report/json_text.hpp"
 #include "studies/setting_text.hpp"
 #include "studies/shell_command.hpp"
 #include "studies/study_answer.hpp"
@@ -134,7 +135,7 @@ void writeStudyOutput(const Study& study, const StudyEngine& engine, const Study
   writeTextFile(folder.file("commands.sh"), commandsScript(study, engine));
   Json summary = studySummary(study, engine, folder, findings);
   summary.erase("study_folder");  // the same study gives the same file wherever it lies
-  writeTextFile(folder.file("summary.json"), summary.dump(2) + "\n");
+  writeTextFile(folder.file("summary.json"), jsonText(summary) + "\n");
   writeTextFile(folder.file("report.html"), studyPage(study, engine, findings.boundaries));
   writeFigures(studyFigures(study, arrange(study, engine.cases(), engine.results())), folder);
   Json timing;
@@ -148,7 +149,7 @@ void writeStudyOutput(const Study& study, const StudyEngine& engine, const Study
     timing["cases_per_minute_per_core"] = 60 * static_cast<double>(engine.ranNow()) / cpu_s;
     timing["share_of_cpu_in_runs"] = engine.cpuSecondsNow() / cpu_s;
   }
-  writeTextFile(folder.file("timing.json"), timing.dump(2) + "\n");
+  writeTextFile(folder.file("timing.json"), jsonText(timing) + "\n");
 }
 
 std::string studyText(const Study& study, const StudyEngine& engine, const StudyFolder& folder,

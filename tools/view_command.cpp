@@ -8,6 +8,7 @@
 
 #include "experiment/run_folder.hpp"
 #include "experiment/text_file.hpp"
+#include "report/json_text.hpp"
 #include "report/page_template.hpp"
 #include "tools/commands.hpp"
 #include "tools/http_server.hpp"
@@ -31,7 +32,8 @@ struct ViewArguments {
 void serveUntilInterrupted(HttpServer& server, const std::string& what, bool json) {
   const std::atomic<bool>* stop = interruptFlag();
   if (json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"url", server.url()}, {"shows", what}}.dump());
+    fmt::print("{}\n",
+               jsonText(nlohmann::ordered_json{{"url", server.url()}, {"shows", what}}, -1));
   } else {
     fmt::print("{}\n", server.url());
   }

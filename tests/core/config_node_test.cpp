@@ -1,12 +1,12 @@
 #include "core/config_node.hpp"
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <random>
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "core/config_reader.hpp"
 #include "core/error.hpp"
@@ -51,6 +51,103 @@ TEST(ConfigNode, WritesYamlThatReadsBackTheSame) {
   ConfigReader back(again);
   EXPECT_EQ(back.child("b").text("e"), in.child("b").text("e"));
   EXPECT_TRUE(again.find("b")->find("d")->quoted());
+}
+
+TEST(ConfigNode, WritesKeysThatYamlWouldTakeForSomethingElse) {
+  ConfigNode parameters = ConfigNode::map({});
+  for (const char* key : {"'k #1: gain'",
+                          "*k",
+                          "gr\u00f6\u00dfe",
+                          "null",
+                          "NULL",
+                          "~",
+                          "? q",
+                          "- d",
+                          "a: b",
+                          "",
+                          "&x",
+                          "!t",
+                          "<<",
+                          "---",
+                          "...",
+                          "-",
+                          "{",
+                          "[1",
+                          "\"",
+                          "\\",
+                          "a\nb",
+                          "1e3",
+                          "true"}) {
+    parameters.set(key, ConfigNode::scalar("2", false, {}));
+  }
+  ConfigNode tree = ConfigNode::map({});
+  tree.set("parameters", parameters);
+  const ConfigNode again = parseYaml(toYaml(tree), "t");
+  ASSERT_EQ(again.find("parameters")->entries().size(), parameters.entries().size());
+  for (const auto& [key, value] : parameters.entries()) {
+    EXPECT_TRUE(again.find("parameters")->find(key)) << key << " in " << toYaml(tree);
+  }
+}
+
+/// Trees of every form, from texts that are hard on a writer.
+class RandomTrees {
+ public:
+  ConfigNode tree(int depth) {
+    const int kind = depth == 0 ? 1 : static_cast<int>(random_() % 4);
+    if (kind == 0) return ConfigNode::null({});
+    if (kind == 1) return scalar();
+    ConfigNode node = kind == 2 ? ConfigNode::map({}) : ConfigNode::list({});
+    for (std::size_t n = random_() % 4; n > 0; --n) {
+      if (kind == 2) {
+        node.set(text(), tree(depth - 1));
+      } else {
+        node.append(tree(depth - 1));
+      }
+    }
+    return node;
+  }
+
+ private:
+  ConfigNode scalar() {
+    // A bare text is one that a file can have bare: a word, a number.
+    if (random_() % 2 == 0) return ConfigNode::scalar(text(), true, {});
+    static const char* const bare[] = {"1",   "-2.5e-3", "-.5",  "+3",  "-inf",
+                                       "a/b", "true",    "0x1F", "word"};
+    return ConfigNode::scalar(bare[random_() % std::size(bare)], false, {});
+  }
+  std::string text() {
+    static const char* const parts[] = {
+        "a",      "7",      " ",      ":",          "#",    "'",    "\"",     "\\",
+        "\n",     "\t",     "-",      "*",          "&",    "[",    "]",      "{",
+        "}",      ",",      "?",      "|",          ">",    "%",    "@",      "`",
+        "!",      "~",      "null",   "\r",         "\x01", "\x7f", "\u00e9", "\u0085",
+        "\u00a0", "\u2028", "\ufeff", "\U0001F916", ".",    "<<",   "="};
+    std::string out;
+    for (std::size_t n = random_() % 6; n > 0; --n) out += parts[random_() % std::size(parts)];
+    return out;
+  }
+  std::mt19937 random_{1};
+};
+
+void expectSame(const ConfigNode& a, const ConfigNode& b, const std::string& text) {
+  ASSERT_EQ(a.kind(), b.kind()) << text;
+  ASSERT_EQ(a.text(), b.text()) << text;
+  ASSERT_EQ(a.quoted(), b.quoted()) << text;
+  ASSERT_EQ(a.entries().size(), b.entries().size()) << text;
+  ASSERT_EQ(a.items().size(), b.items().size()) << text;
+  for (std::size_t i = 0; i < a.entries().size(); ++i) {
+    ASSERT_EQ(a.entries()[i].first, b.entries()[i].first) << text;
+    expectSame(a.entries()[i].second, b.entries()[i].second, text);
+  }
+  for (std::size_t i = 0; i < a.items().size(); ++i) expectSame(a.items()[i], b.items()[i], text);
+}
+
+TEST(ConfigNode, WriterAndParserAreInverse) {
+  RandomTrees random;
+  for (int i = 0; i < 3000 && !HasFatalFailure(); ++i) {
+    const ConfigNode tree = random.tree(4);
+    expectSame(tree, parseYaml(toYaml(tree), "t"), toYaml(tree));
+  }
 }
 
 TEST(ConfigNode, OverridesReachIntoMapsAndLists) {

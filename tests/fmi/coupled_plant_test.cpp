@@ -8,6 +8,7 @@
 #include "core/yaml_file.hpp"
 #include "plant/plant.hpp"
 #include "tests/fmi/fmu_fixture.hpp"
+#include "tests/fmi/small_fmus.hpp"
 #include "tests/fmi/spring_support.hpp"
 
 namespace ballbot {
@@ -206,6 +207,113 @@ TEST(CoupledPlant, SaysWhatIsWrongWithTheConnections) {
       HasSubstr("the plant's FMU has no 'sensors.motor_angle', and no connection brings it"));
   EXPECT_THAT(words("{name: spring, fil: x}"),
               HasSubstr("unknown key 'fil'; did you mean 'file'?"));
+}
+
+std::string values(const std::string& connections) {
+  return "{name: values, file: '" + valuesFmu() + "', patience_s: 60, connections: [" +
+         connections + "]}";
+}
+
+TEST(CoupledPlant, AnElementOfAMatrixIsCountedRowByRow) {
+  for (const auto& [element, force] : std::vector<std::pair<std::string, double>>{
+           {"A[1,2]", 10}, {"A[2,1]", 30}, {"A[3,3]", 80}, {"A[4]", 30}}) {
+    CoupledPlant plant(
+        scenarioWith(values("{from: 'values." + element + "', to: 'plant.force.base_W[1]'}")),
+        kProgram);
+    plant.enterInitializationMode(kSimStart);
+    steps(plant, 1, 1);
+    EXPECT_EQ(plant.truth()->external_force_W[0], force) << element;
+  }
+  for (const char* none : {"A[1,4]", "A[2x]", "A[2][1]", "A[0]", "A[10]", "A[1,2,3]"}) {
+    const std::string line =
+        std::string("{from: 'values.") + none + "', to: 'plant.force.base_W[1]'}";
+    EXPECT_THAT(messageOf([&] { planCoupling(scenarioWith(values(line))); }),
+                ::testing::AnyOf(HasSubstr("has no output"), HasSubstr("has no variable")))
+        << none;
+  }
+}
+
+TEST(CoupledPlant, AnAliasIsTheSameVariable) {
+  const std::string file = fmi3File("alias",
+                                    "<Float64 name=\"u\" valueReference=\"1\" causality=\"input\">"
+                                    "<Alias name=\"hand.x\"/></Float64>");
+  const auto words = [&](const std::string& lines) {
+    return messageOf([&] {
+      planCoupling(scenarioWith("{name: g, file: '" + file + "', connections: [" + lines + "]}"));
+    });
+  };
+  const std::string to_alias = "{from: 'plant.truth.p_WE[1]', to: g.hand.x}";
+  EXPECT_EQ(words(to_alias), "nothing was thrown");
+  EXPECT_THAT(words(to_alias + ", {from: 'plant.truth.p_WE[2]', to: g.u}"),
+              HasSubstr("'g.u' has another source already"));
+}
+
+TEST(CoupledPlant, WhatWouldLoseSomethingIsRefusedBeforeItRuns) {
+  const auto words = [](const std::string& fmus) {
+    return messageOf([&] { planCoupling(scenarioWith(fmus)); });
+  };
+  EXPECT_THAT(words(spring("trouble: 3.7", "")),
+              HasSubstr("parameter 'trouble' is 3.7, must be a whole number between"));
+  EXPECT_THAT(words(spring("trouble: 1e20", "")), HasSubstr("must be a whole number between"));
+  EXPECT_THAT(words(values("{from: 'plant.truth.p_WE[1]', to: values.in_Int8}")),
+              HasSubstr("is a real number, but 'values.in_Int8' takes a whole number"));
+  EXPECT_THAT(words(values("{from: plant.sensors.imu_count, to: values.in_Boolean}")),
+              HasSubstr("is a whole number, but 'values.in_Boolean' takes true or false"));
+  EXPECT_EQ(words(values("{from: plant.sensors.imu_count, to: values.in_Int64}")),
+            "nothing was thrown");
+  const std::string file =
+      fmi2File("lossy",
+               scalar("flag", "parameter", "Boolean") + scalar("text", "input", "String") +
+                   scalar("mode", "parameter", "Enumeration declaredType=\"M\"") +
+                   scalar("gain", "parameter", "Real min=\"0\" max=\"2\""),
+               "<TypeDefinitions><SimpleType name=\"M\"><Enumeration><Item name=\"a\" value=\"1\"/>"
+               "<Item name=\"b\" value=\"2\"/></Enumeration></SimpleType></TypeDefinitions>");
+  const auto with = [&](const std::string& parameters, const std::string& lines = "") {
+    return words("{name: g, file: '" + file + "', parameters: {" + parameters +
+                 "}, connections: [" + lines + "]}");
+  };
+  EXPECT_THAT(with("flag: 2"), HasSubstr("parameter 'flag' is 2, must be true or false"));
+  EXPECT_EQ(with("flag: true, mode: 2, gain: 1.5"), "nothing was thrown");
+  EXPECT_THAT(with("mode: 7"), HasSubstr("must be one of the numbers of its enumeration: 1, 2"));
+  EXPECT_THAT(with("gain: 3"), HasSubstr("parameter 'gain' is 3, must be between 0 and 2"));
+  EXPECT_THAT(with("", "{from: 'plant.truth.p_WE[1]', to: g.text}"),
+              HasSubstr("'g.text' is of type String"));
+}
+
+// A run whose scenario says one thing and whose plant is another would pass a test of pushes
+// without a push.
+TEST(CoupledPlant, AnFmuInThePlantsPlaceIsThePlantOfTheScenario) {
+  const auto words = [](const std::string& change, const std::string& parameters = "") {
+    ConfigNode scenario = scenarioWith("{name: plant, file: '" + unpackedFmu(2).file +
+                                       "', parameters: {" + parameters + "}}");
+    if (!change.empty()) applyOverride(scenario, change);
+    return messageOf([&] { planCoupling(scenario); });
+  };
+  const std::string push =
+      "environment.pushes=[{body: base, point_m: [0, 0, 0], force_N: [0, 20, 0], start_s: 1, "
+      "duration_s: 0.5}]";
+  EXPECT_EQ(words(""), "nothing was thrown");
+  EXPECT_THAT(words(push), HasSubstr("is not the plant of this scenario: environment.pushes is a "
+                                     "list in the scenario"));
+  EXPECT_THAT(words(push), HasSubstr("nothing in the FMU"));
+  EXPECT_THAT(words("seed=7"), HasSubstr("seed is 7 in the scenario, 1 in the FMU"));
+  EXPECT_EQ(words("seed=7", "seed: 7"), "nothing was thrown");
+  EXPECT_EQ(words("environment.payload_kg=0.0"), "nothing was thrown") << "as it is by default";
+  EXPECT_THAT(words("plant.fidelity.friction=false"),
+              HasSubstr("plant.fidelity.friction is false"));
+}
+
+TEST(CoupledPlant, AForeignPlantCannotBeKnownToHoldTheEnvironment) {
+  ConfigNode scenario = testScenario();
+  const std::string ours = unpackedFmu(2).file;
+  const std::string xml = readFromZip(ours, "modelDescription.xml", 1U << 20);
+  const std::string foreign = smallFmuFolder() + "/foreign.fmu";
+  writeZip(foreign, {{"modelDescription.xml", xml}, {"binaries/linux64/ballbot_plant.so", "none"}});
+  applyOverride(scenario, "fmus=[{name: plant, file: '" + foreign + "'}]");
+  EXPECT_EQ(messageOf([&] { planCoupling(scenario); }), "nothing was thrown");
+  applyOverride(scenario, "environment.payload_kg=1");
+  EXPECT_THAT(messageOf([&] { planCoupling(scenario); }),
+              HasSubstr("the scenario has 'environment'"));
 }
 
 }  // namespace

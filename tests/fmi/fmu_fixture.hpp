@@ -6,7 +6,7 @@
 
 #include "core/config_node.hpp"
 #include "core/time.hpp"
-#include "fmi/fmu_description.hpp"
+#include "fmi/fmu_ports.hpp"
 
 namespace ballbot {
 

@@ -137,7 +137,7 @@ TEST(LatinHypercube, SamplesLieInTheirRangeOnItsScale) {
 TEST(SettingText, ReadsBackToTheSameTree) {
   for (const std::string text :
        {"[1, -2.5, a/b]", "{enabled: false, x: [1, {y: \"no: \\\"quotes\\\"\"}]}", "\"17\"", "{}",
-        "null"}) {
+        "null", "{\"*k\": \"a\\x0ab\", \"null\": \"~\"}"}) {
     const ConfigNode tree = parseYaml(text, "test");
     EXPECT_EQ(toFlowYaml(parseYaml(toFlowYaml(tree), "again")), toFlowYaml(tree)) << text;
     EXPECT_EQ(toFlowYaml(tree), text);
