@@ -173,6 +173,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out,
   result.completed = master.ended() == StepMaster::End::kDuration;
   result.fell = metrics.fell();
   result.trajectory_digest = recorder.trajectoryDigest();
+  result.log_digest = recorder.logDigest();
   result.metrics = metrics.values(controller);
   result.verdicts = judge(scenario.requirements, result.metrics, known_metrics);
   result.passed = result.fell ? askForFall(scenario.requirements) : result.completed;

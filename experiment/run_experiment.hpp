@@ -52,7 +52,7 @@ struct RunResult {
   bool fell = false;
   bool completed = false;  ///< false: it ended early, because the robot fell
   SimTime end{};
-  std::string trajectory_digest;
+  std::string trajectory_digest, log_digest;
   std::map<std::string, double> metrics;
   std::vector<VerdictRow> verdicts;
   double wall_seconds = 0;

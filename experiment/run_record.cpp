@@ -4,8 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/number_text.hpp"
 #include "experiment/build_info.hpp"
 #include "experiment/rejection_metrics.hpp"
+#include "experiment/sealed_json.hpp"
 #include "experiment/text_file.hpp"
 
 namespace ballbot {
@@ -37,9 +39,9 @@ void writeManifest(const Scenario& scenario, const RunFolder& folder,
   m["scenario"] = scenario.name;
   m["seed"] = scenario.seed;
   m["config_digest"] = scenario.configDigest();
-  if (begins_at) m["begins_at_s"] = toSeconds(*begins_at);
+  if (begins_at) m["begins_at_s"] = decimalSeconds(toNs(*begins_at));
   for (const auto& [key, value] : buildInfo()) m["build"][key] = value;
-  writeTextFile(folder.manifestFile(), m.dump(2) + "\n");
+  writeSealedJson(folder.manifestFile(), m);
 }
 
 Json summaryJson(const Scenario& scenario, const RunResult& result) {
@@ -48,8 +50,9 @@ Json summaryJson(const Scenario& scenario, const RunResult& result) {
   s["passed"] = result.passed;
   s["fell"] = result.fell;
   s["completed"] = result.completed;
-  s["simulated_s"] = toSeconds(result.end);
+  s["simulated_s"] = decimalSeconds(toNs(result.end));
   s["trajectory_digest"] = result.trajectory_digest;
+  s["log_digest"] = result.log_digest;
   // The two numbers people ask for first stand at the top as well.
   for (const char* name : {"final_ball_position_error_m", "largest_tilt_deg"}) {
     const auto it = result.metrics.find(name);
@@ -75,7 +78,7 @@ Json summaryJson(const Scenario& scenario, const RunResult& result) {
 }
 
 void writeSummary(const Scenario& scenario, const RunResult& result, const RunFolder& folder) {
-  writeTextFile(folder.summaryFile(), summaryJson(scenario, result).dump(2) + "\n");
+  writeSealedJson(folder.summaryFile(), summaryJson(scenario, result));
 }
 
 void writeTiming(const RunResult& result,
