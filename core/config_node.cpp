@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/yaml_text.hpp"
+#include "core/number_text.hpp"
 
 namespace ballbot {
 
@@ -81,7 +82,11 @@ ConfigNode merged(const ConfigNode& base, const ConfigNode& overlay) {
   ConfigNode result = base;
   for (const auto& [key, value] : overlay.entries()) {
     const ConfigNode* old = result.find(key);
-    result.set(key, old ? merged(*old, value) : value);
+    if (value.kind() == ConfigNode::Kind::kNull) {
+      result.erase(key);
+    } else {
+      result.set(key, old ? merged(*old, value) : value);
+    }
   }
   return result;
 }
@@ -98,8 +103,9 @@ void setPath(ConfigNode& root, const std::string& dotted_path, ConfigNode value)
                                    toText(value.where()), dotted_path));
     }
     if (node->kind() == ConfigNode::Kind::kList) {
-      const bool number = std::all_of(key.begin(), key.end(), [](char c) { return c >= '0' && c <= '9'; });
-      const std::size_t i = number && key.size() < 9 ? std::stoul(key) : node->items().size();
+      const bool number =
+          std::all_of(key.begin(), key.end(), [](char c) { return c >= '0' && c <= '9'; });
+      const auto i = static_cast<std::size_t>(number ? parseWhole(key).value_or(-1) : -1);
       if (i >= node->items().size()) {
         throw InputError(fmt::format("{}: '{}' is not an item of the list at {}, which has {}",
                                      toText(value.where()), key, toText(node->where()),
@@ -107,6 +113,10 @@ void setPath(ConfigNode& root, const std::string& dotted_path, ConfigNode value)
       }
       node = &node->items()[i];
     } else if (node->kind() == ConfigNode::Kind::kMap) {
+      if (last && value.kind() == ConfigNode::Kind::kNull) {
+        node->erase(key);
+        return;
+      }
       if (!node->find(key)) node->set(key, ConfigNode::map(value.where()));
       node = node->find(key);
     } else {

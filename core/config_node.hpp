@@ -57,11 +57,11 @@ class ConfigNode {
   std::vector<ConfigNode> items_;
 };
 
-/// `overlay` on top of `base`: maps merge key by key, anything else replaces.
+/// `overlay` on top of `base`: maps merge key by key, null drops, anything else replaces.
 ConfigNode merged(const ConfigNode& base, const ConfigNode& overlay);
 
 /// Sets the value at a dotted path ("controller.mpc.horizon_s", "pushes.0.force_N"), creating maps
-/// on the way. Whether such a key exists at all is judged by whoever reads the tree.
+/// on the way; null takes the key away. Whether a key exists at all is judged by the tree's reader.
 /// @throw InputError if the path runs through a scalar or past the end of a list.
 void setPath(ConfigNode& root, const std::string& dotted_path, ConfigNode value);
 

@@ -2,25 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <charconv>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "core/nearest_word.hpp"
+#include "core/number_text.hpp"
 
 namespace ballbot {
 namespace {
 
-bool parseNumber(const ConfigNode& node, double& value) {
-  if (node.kind() != ConfigNode::Kind::kScalar || node.quoted() || node.text().empty()) return false;
-  // Not strtod: it obeys the locale of the process, and an FMU lives in other people's processes.
-  const char* begin = node.text().data();
-  const char* end = begin + node.text().size();
-  if (*begin == '+') ++begin;
-  const auto [stopped, error] = std::from_chars(begin, end, value);
-  return error == std::errc() && stopped == end;
+constexpr double kLongest_ns = 9.2e18;  // what a SimDuration can hold
+
+std::optional<double> numberOf(const ConfigNode& node) {
+  if (node.kind() != ConfigNode::Kind::kScalar || node.quoted()) return std::nullopt;
+  return parseNumber(node.text());
 }
 
 std::string describe(const ConfigNode& node) {
@@ -39,11 +37,12 @@ std::string describe(Range r) {
 }
 
 double checkedNumber(const ConfigNode& node, const std::string& name, Range range) {
-  double value = 0;
-  if (!parseNumber(node, value)) {
+  const std::optional<double> number = numberOf(node);
+  if (!number) {
     throw InputError(fmt::format("{}: {} is {}, must be a number", toText(node.where()), name,
                                  describe(node)));
   }
+  const double value = *number;
   if (std::isnan(value)) {
     throw InputError(fmt::format("{}: {} is not a number (NaN)", toText(node.where()), name));
   }
@@ -172,14 +171,18 @@ SimDuration ConfigReader::duration(const std::string& key, Range range) {
   const double ns_per_unit = endsWith("_us") ? 1e3 : endsWith("_ms") ? 1e6 : 1e9;
   const ConfigNode& node = require(key);
   const double ns = checkedNumber(node, key, range) * ns_per_unit;
-  const double whole = std::round(ns);
-  if (std::abs(ns - whole) > 1e-3) {
+  const double nearest = std::round(ns);
+  if (std::abs(nearest) > kLongest_ns) {
+    throw InputError(fmt::format("{}: {} is {}, must be at most 292 years", toText(node.where()),
+                                 key, node.text()));
+  }
+  if (std::abs(ns - nearest) > 1e-3) {
     throw InputError(fmt::format(
         "{}: {} is {}, which is {} ns: not a whole number of nanoseconds. Write the period itself, "
         "not one over a frequency",
         toText(node.where()), key, node.text(), ns));
   }
-  return SimDuration{static_cast<std::int64_t>(whole)};
+  return SimDuration{static_cast<std::int64_t>(nearest)};
 }
 
 SimDuration ConfigReader::durationOr(const std::string& key, SimDuration fallback, Range range) {

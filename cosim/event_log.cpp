@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -63,6 +64,7 @@ void EventLogWriter::flush() {
     done += static_cast<std::size_t>(count);
   }
   written_ += static_cast<std::int64_t>(done);
+  digest_.add(buffer_.data(), done);
   buffer_.clear();
   ends_.clear();
 }
@@ -95,6 +97,19 @@ void EventLogWriter::close() {
   if (::close(file) != 0) {
     throw OutputError(fmt::format("{}: cannot be completed: {}", path_, std::strerror(errno)));
   }
+}
+
+std::string logDigest(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
+  Digest digest;
+  std::vector<char> block(kBufferBytes);
+  while (file) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    digest.add(block.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (!file.eof()) throw InputError(fmt::format("{}: cannot be read to its end", path));
+  return digest.hex();
 }
 
 }  // namespace ballbot

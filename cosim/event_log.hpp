@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/digest.hpp"
 #include "core/time.hpp"
 #include "messages/wire.hpp"
 
@@ -27,6 +28,8 @@ class EventLogWriter {
   void flush();
   void close();
   std::int64_t bytesWritten() const { return written_ + static_cast<std::int64_t>(buffer_.size()); }
+  /// Of the bytes in the file, once it is closed: logDigest() of it, as long as nobody changes it.
+  std::string digest() const { return digest_.hex(); }
 
  private:
   [[noreturn]] void giveUp(std::size_t done, int error);
@@ -35,8 +38,12 @@ class EventLogWriter {
   int file_ = -1;
   std::int64_t number_ = 0;
   std::int64_t written_ = 0;          // bytes in the file
+  Digest digest_;                     // of the bytes in the file
   std::vector<std::uint8_t> buffer_;  // whole events
   std::vector<std::size_t> ends_;     // where each ends
 };
+
+/// Digest of a file's bytes. @throw InputError if it cannot be read
+std::string logDigest(const std::string& path);
 
 }  // namespace ballbot

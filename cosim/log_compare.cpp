@@ -11,23 +11,26 @@
 namespace ballbot {
 namespace {
 
-/// The hashes of one run, event by event.
+/// Whether this message says what recorders write: hashes of at least one event, in order.
+bool isSound(const ballbot_msgs::tick_digests& d) {
+  const auto ticks = static_cast<std::size_t>(std::max(d.tick_count, 0));
+  return ticks > 0 && d.offset_ns.size() == ticks && d.hash.size() == ticks * kChannelCount &&
+         d.offset_ns.front() == 0 && std::is_sorted(d.offset_ns.begin(), d.offset_ns.end());
+}
+
+/// The hashes of one run, event by event, of a log that is whole as far as it goes.
 class TickHashes {
  public:
-  explicit TickHashes(const std::string& path) : digests_(readRunLog(path).digests) {
+  explicit TickHashes(const std::string& path) {
+    RunLog log = readRunLog(path);
+    if (!log.damage.none()) throw InputError(fmt::format("{}: {}", path, log.damage.text()));
+    digests_ = std::move(log.digests);
     if (digests_.empty()) {
       throw InputError(
           fmt::format("{}: holds no {} messages, so it cannot be compared tick by tick", path,
                       kTickDigestsChannel));
     }
-    for (const ballbot_msgs::tick_digests& d : digests_) {
-      if (d.hash_count != d.tick_count * static_cast<std::int32_t>(kChannelCount)) {
-        throw InputError(
-            fmt::format("{}: its {} messages have {} hashes for {} ticks of {} channels; "
-                        "another version of this program wrote it",
-                        path, kTickDigestsChannel, d.hash_count, d.tick_count, kChannelCount));
-      }
-    }
+    for (std::size_t i = 0; i < digests_.size(); ++i) requireSound(path, i);
   }
 
   bool atEnd() const { return message_ == digests_.size(); }
@@ -45,6 +48,21 @@ class TickHashes {
   }
 
  private:
+  void requireSound(const std::string& path, std::size_t i) const {
+    const ballbot_msgs::tick_digests& d = digests_[i];
+    if (!isSound(d)) {
+      throw InputError(
+          fmt::format("{}: {} message {} has {} hashes and {} times for {} ticks of {} channels; "
+                      "another version of this program wrote it, or another program",
+                      path, kTickDigestsChannel, i, d.hash.size(), d.offset_ns.size(), d.tick_count,
+                      kChannelCount));
+    }
+    if (i == 0 || d.first_tick == digests_[i - 1].first_tick + digests_[i - 1].tick_count) return;
+    throw InputError(fmt::format("{}: {} message {} begins with tick {}, must with tick {}", path,
+                                 kTickDigestsChannel, i, d.first_tick,
+                                 digests_[i - 1].first_tick + digests_[i - 1].tick_count));
+  }
+
   const ballbot_msgs::tick_digests& at() const { return digests_[message_]; }
 
   std::vector<ballbot_msgs::tick_digests> digests_;

@@ -26,7 +26,7 @@ enum class RunBegin { kSame, kMayBeLater };
 /// Compares the logs of two runs event by event at full rate, whatever they kept of the messages.
 /// Nothing if they are identical as far as both reach and end together; where one may begin later,
 /// what the other did before is passed over.
-/// @throw InputError if a log cannot be read or holds no digests.
+/// @throw InputError if a log cannot be read, is damaged (saying where) or holds no digests.
 std::optional<RunDifference> compareLogs(const std::string& path_a, const std::string& path_b,
                                          RunBegin begin = RunBegin::kSame);
 

@@ -48,6 +48,8 @@ class Recorder {
 
   /// 32 hexadecimal digits; equal for runs that did the same at every event.
   std::string trajectoryDigest() const { return digest_.hex(); }
+  /// Of the log's bytes, once it is complete; empty without a log.
+  std::string logDigest() const { return log_ ? log_->digest() : ""; }
   std::int64_t bytesWritten() const { return log_ ? log_->bytesWritten() : 0; }
 
  private:

@@ -1,11 +1,11 @@
 #include "experiment/checkpoint_files.hpp"
 
-#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "experiment/text_file.hpp"
 
 namespace ballbot {
@@ -32,11 +32,9 @@ Checkpoint read(const std::string& path) {
 /// The time in a checkpoint's name, or nothing for other files.
 std::optional<SimTime> timeOf(const fs::path& file) {
   if (file.extension() != kExtension) return std::nullopt;
-  const std::string stem = file.stem().string();
-  char* end = nullptr;
-  const long long ns = std::strtoll(stem.c_str(), &end, 10);
-  if (stem.empty() || *end != '\0') return std::nullopt;
-  return simTimeFromNs(ns);
+  const auto ns = parseWhole(file.stem().string());
+  if (!ns) return std::nullopt;
+  return simTimeFromNs(*ns);
 }
 
 }  // namespace

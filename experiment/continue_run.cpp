@@ -1,56 +1,41 @@
 #include "experiment/continue_run.hpp"
 
-#include <charconv>
+#include <optional>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "cosim/lifecycle.hpp"
 #include "experiment/checkpoint_files.hpp"
 #include "experiment/plant_link.hpp"
+#include "experiment/recorded_run.hpp"
 #include "experiment/robot_controller.hpp"
-#include "experiment/text_file.hpp"
 
 namespace ballbot {
-namespace {
-
-/// Where a run ended, if its summary says so: an interrupted run has none.
-std::optional<double> endOf(const RunFolder& run) {
-  try {
-    return nlohmann::json::parse(readTextFile(run.summaryFile())).at("simulated_s").get<double>();
-  } catch (const nlohmann::json::exception&) {
-    return std::nullopt;
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-}
-
-}  // namespace
 
 RunPoint parseRunPoint(const std::string& text) {
   const std::size_t at = text.rfind('@');
-  double seconds = -1;
-  bool good = at != std::string::npos && at > 0;
-  if (good) {
-    const char* end = text.data() + text.size();
-    const auto [stopped, error] = std::from_chars(text.data() + at + 1, end, seconds);
-    const std::string unit(stopped, end);
-    good = error == std::errc() && (unit.empty() || unit == "s") && seconds >= 0 && seconds < 1e9;
+  std::optional<double> seconds;
+  if (at != std::string::npos && at > 0) {
+    std::string moment = text.substr(at + 1);
+    if (!moment.empty() && moment.back() == 's') moment.pop_back();
+    seconds = parseNumber(moment);
   }
-  if (!good) {
+  if (!seconds || !(*seconds >= 0 && *seconds < 1e9)) {
     throw InputError(fmt::format(
         "--from is '{}', must be a run folder and a time, e.g. runs/push-001@4.2s", text));
   }
-  return {text.substr(0, at), kSimStart + durationFromSeconds(seconds)};
+  return {text.substr(0, at), kSimStart + durationFromSeconds(*seconds)};
 }
 
 Checkpoint stateOfRun(const RunFolder& run, SimTime time, const ReplayOptions& options) {
+  requireUnedited(run);
   const Scenario scenario = loadScenario(run.scenarioFile());
-  const std::optional<double> end = endOf(run);
-  if (end && toSeconds(time) >= *end) {
+  const auto summary = readSummary(run);  // an interrupted run has none
+  if (summary && toSeconds(time) >= summary->simulated_s) {
     throw InputError(fmt::format("{}: ended at {:.9g} s, so it cannot be continued from {:.9g} s",
-                                 run.path(), *end, toSeconds(time)));
+                                 run.path(), summary->simulated_s, toSeconds(time)));
   }
   EventCalendar calendar(scenario.rates.base_step);
   RobotController controller(scenario, calendar);

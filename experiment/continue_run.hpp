@@ -26,7 +26,7 @@ struct ReplayOptions {
 
 /// State of a recorded run at its first event at or after a moment: its last checkpoint before, or
 /// its beginning, simulated again from there on, which gives the bits of the run.
-/// @throw InputError if the run did not reach that moment.
+/// @throw InputError if the run did not reach that moment, or its folder is not as it left it.
 Checkpoint stateOfRun(const RunFolder& run, SimTime time, const ReplayOptions& options);
 
 /// What a run of `changed` begins with that goes on from a state of a run of `original`. Plant,

@@ -4,6 +4,7 @@
 
 #include "core/angle.hpp"
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/robot_sensing.hpp"
 #include "experiment/scenario_frame.hpp"
@@ -35,7 +36,7 @@ class ErrorTable {
   void add(SimTime time, const EstimationError* e, const Estimator& estimator) {
     const auto own = estimator.selfAssessment();
     next_ = 0;
-    put(toSeconds(time));
+    put(decimalSeconds(toNs(time)));
     put(e ? kDegPerRad * e->tilt_W.x() : kNone);
     put(e ? kDegPerRad * e->tilt_W.y() : kNone);
     for (int i = 0; i < 2; ++i) put(e ? e->velocity_W[i] : kNone);

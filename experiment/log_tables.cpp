@@ -6,6 +6,7 @@
 
 #include "controller/cost_terms.hpp"
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 
 namespace ballbot {
 namespace {
@@ -25,7 +26,7 @@ class TableBuilder {
  public:
   TableBuilder(std::string name, const std::vector<Message>& messages) : messages_(messages) {
     table_.name = std::move(name);
-    add("time_s", "s", [](const Message& m) { return 1e-9 * static_cast<double>(m.sim_time_ns); });
+    add("time_s", "s", [](const Message& m) { return decimalSeconds(m.sim_time_ns); });
   }
   template <typename Get>
   TableBuilder& add(const std::string& name, const char* unit, Get get) {
@@ -86,11 +87,11 @@ std::vector<LogTable> logTables(const RunLog& log) {
       .addJoints("joint_velocity", "rad/s", [](const sensor_frame& m) { return m.joint_velocity; })
       .addJoints("joint_torque", "N m", [](const sensor_frame& m) { return m.joint_torque; })
       .add("imu_count", "", [](const sensor_frame& m) { return m.imu_count; })
-      .add("imu_time", "s", [](const sensor_frame& m) { return 1e-9 * static_cast<double>(m.imu_time_ns); })
+      .add("imu_time", "s", [](const sensor_frame& m) { return decimalSeconds(m.imu_time_ns); })
       .addVector("accel_B", "m/s^2", [](const sensor_frame& m) { return m.accel_B; })
       .addVector("gyro_WB_B", "rad/s", [](const sensor_frame& m) { return m.gyro_WB_B; })
       .add("pose_count", "", [](const sensor_frame& m) { return m.pose_count; })
-      .add("pose_time", "s", [](const sensor_frame& m) { return 1e-9 * static_cast<double>(m.pose_time_ns); })
+      .add("pose_time", "s", [](const sensor_frame& m) { return decimalSeconds(m.pose_time_ns); })
       .add("pose_x", "m", [](const sensor_frame& m) { return m.pose_W[0]; })
       .add("pose_y", "m", [](const sensor_frame& m) { return m.pose_W[1]; })
       .add("pose_yaw", "rad", [](const sensor_frame& m) { return m.pose_W[2]; })
@@ -134,7 +135,7 @@ std::vector<LogTable> logTables(const RunLog& log) {
       .addJoints("damping", "N m s/rad", [](const actuator_command& m) { return m.damping; })
       .into(tables);
   TableBuilder<plan_report>("plan", log.plans)
-      .add("acts_from", "s", [](const plan_report& m) { return 1e-9 * static_cast<double>(m.acts_from_ns); })
+      .add("acts_from", "s", [](const plan_report& m) { return decimalSeconds(m.acts_from_ns); })
       .add("accepted", "", [](const plan_report& m) { return m.accepted; })
       .add("iterations", "", [](const plan_report& m) { return m.iterations; })
       .add("cost", "", [](const plan_report& m) { return m.cost; })
@@ -142,7 +143,8 @@ std::vector<LogTable> logTables(const RunLog& log) {
       .add("constraint_violation", "", [](const plan_report& m) { return m.constraint_violation; })
       .add("contact_state", "", [](const plan_report& m) { return m.contact_state; })
       .addVector("contact_asked_W", "N", [](const plan_report& m) { return m.contact_asked_W; })
-      .addVector("contact_counted_on_W", "N", [](const plan_report& m) { return m.contact_counted_on_W; })
+      .addVector("contact_counted_on_W", "N",
+                 [](const plan_report& m) { return m.contact_counted_on_W; })
       .add("status", "", [](const plan_report& m) { return m.status; })
       .add("fallback", "", [](const plan_report& m) { return m.fallback; })
       .add("predicted_decrease", "", [](const plan_report& m) { return m.predicted_decrease; })

@@ -38,7 +38,9 @@ RobotController::RobotController(const Scenario& scenario, EventCalendar& calend
   estimator_task_ = calendar.addTask("estimator", scenario.rates.estimator, {}, "rates.estimator_period_us");
   planner_task_ = calendar.addTask("planner", scenario.rates.planner, {}, "rates.planner_period_us");
   tracker_task_ = calendar.addTask("tracker", scenario.rates.tracker, {}, "rates.tracker_period_us");
-  requireWholeMultiple(plan_latency_ + calendar.baseStep(), calendar.baseStep(), "rates.plan_latency_us");
+  if (plan_latency_ > SimDuration::zero()) {
+    requireWholeMultiple(plan_latency_, calendar.baseStep(), "rates.plan_latency_us");
+  }
 }
 
 void RobotController::onSensors(SimTime now, const SensorFrame& sensors, DueTasks due,

@@ -175,6 +175,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out,
   result.completed = master.ended() == StepMaster::End::kDuration;
   result.fell = metrics.fell();
   result.trajectory_digest = recorder.trajectoryDigest();
+  result.log_digest = recorder.logDigest();
   result.metrics = metrics.values(controller);
   result.verdicts = judge(scenario.requirements, result.metrics, known_metrics);
   const auto fallback = result.metrics.find(kFallbackPercent);

@@ -55,7 +55,7 @@ struct RunResult {
   /// says nothing of the controller it is about.
   bool no_plan_acted = false;
   SimTime end{};
-  std::string trajectory_digest;
+  std::string trajectory_digest, log_digest;
   std::map<std::string, double> metrics;
   std::vector<VerdictRow> verdicts;
   double wall_seconds = 0;

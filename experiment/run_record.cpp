@@ -4,8 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/number_text.hpp"
 #include "experiment/build_info.hpp"
 #include "experiment/rejection_metrics.hpp"
+#include "experiment/sealed_json.hpp"
 #include "experiment/text_file.hpp"
 #include "report/json_text.hpp"
 
@@ -38,9 +40,9 @@ void writeManifest(const Scenario& scenario, const RunFolder& folder,
   m["scenario"] = scenario.name;
   m["seed"] = scenario.seed;
   m["config_digest"] = scenario.configDigest();
-  if (begins_at) m["begins_at_s"] = toSeconds(*begins_at);
+  if (begins_at) m["begins_at_s"] = decimalSeconds(toNs(*begins_at));
   for (const auto& [key, value] : buildInfo()) m["build"][key] = value;
-  writeTextFile(folder.manifestFile(), jsonText(m) + "\n");
+  writeSealedJson(folder.manifestFile(), m);
 }
 
 Json summaryJson(const Scenario& scenario, const RunResult& result) {
@@ -50,8 +52,9 @@ Json summaryJson(const Scenario& scenario, const RunResult& result) {
   s["fell"] = result.fell;
   s["completed"] = result.completed;
   s["no_plan_acted"] = result.no_plan_acted;
-  s["simulated_s"] = toSeconds(result.end);
+  s["simulated_s"] = decimalSeconds(toNs(result.end));
   s["trajectory_digest"] = result.trajectory_digest;
+  s["log_digest"] = result.log_digest;
   // The two numbers people ask for first stand at the top as well.
   for (const char* name : {"final_ball_position_error_m", "largest_tilt_deg"}) {
     const auto it = result.metrics.find(name);
@@ -78,7 +81,7 @@ Json summaryJson(const Scenario& scenario, const RunResult& result) {
 }
 
 void writeSummary(const Scenario& scenario, const RunResult& result, const RunFolder& folder) {
-  writeTextFile(folder.summaryFile(), jsonText(summaryJson(scenario, result)) + "\n");
+  writeSealedJson(folder.summaryFile(), summaryJson(scenario, result));
 }
 
 void writeTiming(const RunResult& result,

@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include "core/config_reader.hpp"
+#include "core/config_values.hpp"
 #include "core/digest.hpp"
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "core/yaml_file.hpp"
 #include "experiment/scenario_variants.hpp"
 #include "experiment/text_file.hpp"
@@ -120,10 +122,10 @@ Scenario readScenario(ConfigNode tree, const std::vector<std::string>& overrides
   }
 
   ConfigReader in(s.tree);
-  s.name = in.text("name");
+  s.name = readFileName(in, "name");
   s.summary = in.textOr("summary", "");
   s.duration = in.duration("duration_s", {1e-3, 1e5});
-  s.seed = static_cast<std::uint64_t>(in.number("seed", {0, 9007199254740992.0}));
+  s.seed = static_cast<std::uint64_t>(readWhole(in, "seed", {0, kLargestWhole}));
   for (const char* section : kSections) in.raw(section);
   if (in.has("rates")) s.rates = readRates(in.child("rates"));
   if (const ConfigNode* node = in.raw("requirements")) s.requirements = readRequirements(*node);

@@ -37,6 +37,22 @@ std::string header() {
   return line + "\n";
 }
 
+std::string lineOf(const CycleRecord& r) {
+  std::string line =
+      fmt::format("{},{},{},{},{:.1f},{:.1f},{}", r.cycle, toText(r.state), actionName(r.action),
+                  toText(r.fault), 1e-3 * r.wake_late_ns, 1e-3 * r.act_late_ns, r.sample.imu_count);
+  for (const DriveArray* a :
+       {&r.sample.joint_angle, &r.sample.joint_velocity, &r.sample.joint_torque, &r.torque}) {
+    for (const double v : *a) line += fmt::format(",{:.9g}", v);
+  }
+  for (const std::uint16_t word : r.statusword) line += fmt::format(",{:04X}", word);
+  return line + "\n";
+}
+
+void sayLost() {
+  std::fprintf(stderr, "the record of cycles ends early: %s\n", std::strerror(errno));
+}
+
 }  // namespace
 
 RecordWriter::RecordWriter(SpscRing<CycleRecord>& records, const std::string& path)
@@ -46,7 +62,7 @@ RecordWriter::RecordWriter(SpscRing<CycleRecord>& records, const std::string& pa
     if (file_ == nullptr) {
       throw OutputError(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
     }
-    fmt::print(file_, "{}", header());
+    std::fputs(header().c_str(), file_);
   }
   thread_ = std::thread([this] { run(); });
 }
@@ -54,7 +70,7 @@ RecordWriter::RecordWriter(SpscRing<CycleRecord>& records, const std::string& pa
 RecordWriter::~RecordWriter() {
   stop_ = true;
   thread_.join();
-  if (file_ != nullptr) std::fclose(file_);
+  if (file_ != nullptr && std::fclose(file_) != 0) sayLost();
 }
 
 void RecordWriter::run() {
@@ -69,15 +85,12 @@ void RecordWriter::drain() {
   CycleRecord r;
   while (records_.pop(r)) {
     if (file_ == nullptr) continue;
-    fmt::print(file_, "{},{},{},{},{:.1f},{:.1f},{}", r.cycle, toText(r.state),
-               actionName(r.action), toText(r.fault), 1e-3 * r.wake_late_ns, 1e-3 * r.act_late_ns,
-               r.sample.imu_count);
-    for (const DriveArray* a :
-         {&r.sample.joint_angle, &r.sample.joint_velocity, &r.sample.joint_torque, &r.torque}) {
-      for (const double v : *a) fmt::print(file_, ",{:.9g}", v);
-    }
-    for (const std::uint16_t word : r.statusword) fmt::print(file_, ",{:04X}", word);
-    fmt::print(file_, "\n");
+    const std::string line = lineOf(r);
+    if (std::fwrite(line.data(), 1, line.size(), file_) == line.size()) continue;
+    // A full disk ends the record, not the bench.
+    sayLost();
+    std::fclose(file_);
+    file_ = nullptr;
   }
 }
 

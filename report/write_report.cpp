@@ -1,6 +1,7 @@
 #include "report/write_report.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 
@@ -69,12 +70,15 @@ void writeReport(const ReportData& data, const std::string& urdf_text, const std
                  const ReportSize& size) {
   const std::string page = reportPage(data, urdf_text, size);
   errno = 0;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  const std::string half = path + ".part";
+  std::ofstream file(half, std::ios::binary | std::ios::trunc);
   file << page;
   file.close();
-  if (!file)
-    throw OutputError(path + ": the report cannot be written: " +
-                      (errno != 0 ? std::strerror(errno) : "unknown reason"));
+  if (file && std::rename(half.c_str(), path.c_str()) == 0) return;
+  const int reason = errno;
+  std::remove(half.c_str());
+  throw OutputError(path + ": the report cannot be written: " +
+                    (reason != 0 ? std::strerror(reason) : "unknown reason"));
 }
 
 }  // namespace ballbot

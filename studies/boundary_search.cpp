@@ -51,6 +51,7 @@ std::optional<BoundarySearch::Bracket> BoundarySearch::bracket(Level level) cons
 
 std::vector<double> BoundarySearch::next() const {
   std::vector<double> wanted;
+  if (stuck_) return wanted;
   for (const double end : {range_.low, range_.high}) {
     if (known_.count(end) == 0) wanted.push_back(end);
   }
@@ -70,6 +71,10 @@ std::vector<double> BoundarySearch::next() const {
 
 Boundary BoundarySearch::boundary() const {
   Boundary out;
+  if (stuck_ || known_.empty()) {
+    out.kind = Boundary::Kind::kUnknown;
+    return out;
+  }
   const RateEstimate first = known_.begin()->second, last = known_.rbegin()->second;
   const bool first_passes = first.rate() >= rate_, last_passes = last.rate() >= rate_;
   if (first_passes == last_passes) {

@@ -15,6 +15,7 @@ struct RateEstimate {
   int passed = 0, count = 0;
   double low = 0, high = 1;
 
+  /// Of those that ran; meaningless where none did.
   double rate() const { return count > 0 ? static_cast<double>(passed) / count : 0; }
 };
 RateEstimate wilsonInterval(int passed, int count);
@@ -25,6 +26,7 @@ struct Boundary {
     kFound,
     kPassesEverywhere,  ///< in the range looked at
     kPassesNowhere,
+    kUnknown,  ///< nothing ran where that had to be known
   };
   Kind kind = Kind::kFound;
   bool rising = true;  ///< the rate grows with the value
@@ -42,11 +44,18 @@ class BoundarySearch {
   BoundarySearch(const AxisRange& range, double rate, double resolution)
       : range_(range), rate_(rate), resolution_(resolution) {}
 
-  /// Values whose rate is needed next; empty once the boundary is known well enough.
+  /// Values whose rate is needed next; empty once the boundary is known well enough, or cannot be
+  /// known because at a value that was asked for no case ran.
   std::vector<double> next() const;
-  void tell(double value, const RateEstimate& rate) { known_[value] = rate; }
+  void tell(double value, const RateEstimate& rate) {
+    if (rate.count == 0) {
+      stuck_ = true;
+    } else {
+      known_[value] = rate;
+    }
+  }
 
-  /// From what was told so far; at least two values must have been.
+  /// From what was told so far.
   Boundary boundary() const;
   const std::map<double, RateEstimate>& known() const { return known_; }
 
@@ -60,6 +69,7 @@ class BoundarySearch {
 
   AxisRange range_;
   double rate_, resolution_;
+  bool stuck_ = false;
   std::map<double, RateEstimate> known_;
 };
 

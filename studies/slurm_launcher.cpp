@@ -49,13 +49,16 @@ std::vector<StudyCase> readChunk(const std::string& path) {
   const std::string text = readTextFile(path);
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const auto j = nlohmann::json::parse(text.substr(begin, end - begin), nullptr, false);
-    if (j.is_discarded()) throw InputError(path + ": not a list of cases");
-    StudyCase c;
-    c.id = j.at("case");
-    c.seed = j.at("seed");
-    c.overrides = j.at("overrides").get<std::vector<std::string>>();
-    cases.push_back(std::move(c));
+    try {
+      const auto j = nlohmann::json::parse(text.substr(begin, end - begin));
+      StudyCase c;
+      c.id = j.at("case");
+      c.seed = j.at("seed");
+      c.overrides = j.at("overrides").get<std::vector<std::string>>();
+      cases.push_back(std::move(c));
+    } catch (const nlohmann::json::exception& e) {
+      throw InputError(fmt::format("{}: not a list of cases: {}", path, e.what()));
+    }
     begin = end + 1;
   }
   return cases;

@@ -150,11 +150,15 @@ std::vector<std::string> studyAnswer(const Study& study, const StudyView& view) 
         out.push_back(fmt::format("{}: passed {}.", who, shares));
         continue;
       }
-      int cases = 0;
-      for (const auto& point : curve.points) cases += point.rate.count;
+      int cases = 0, lost = 0;
+      for (const auto& point : curve.points) {
+        cases += point.rate.count;
+        lost += static_cast<int>(point.results.size()) - point.rate.count;
+      }
       const Boundary b = curve.boundary(study.report.rate);
-      out.push_back(fmt::format("{}: along {}, {}; from {} cases.", who, view.along->name,
-                                toText(b, study.report.rate, view.along->unit), cases));
+      out.push_back(fmt::format("{}: along {}, {}; from {} cases{}.", who, view.along->name,
+                                toText(b, study.report.rate, view.along->unit), cases,
+                                lost > 0 ? fmt::format(", {} more did not run", lost) : ""));
     }
   }
   return out;

@@ -19,6 +19,21 @@
 namespace ballbot {
 namespace {
 
+/// Whether a mapping stands for the number of an axis. Other mappings may have a `from` of their
+/// own, as the connections of FMUs do.
+bool isExpression(const ConfigNode& map, const Study& study) {
+  const ConfigNode* from = map.find("from");
+  if (!from) return false;
+  const bool names_axis =
+      from->kind() == ConfigNode::Kind::kScalar &&
+      std::any_of(study.axes.begin(), study.axes.end(),
+                  [&](const StudyAxis& axis) { return axis.name == from->text(); });
+  if (names_axis && !map.find("to")) return true;
+  return std::all_of(map.entries().begin(), map.entries().end(), [](const ConfigNode::Entry& e) {
+    return e.first == "from" || e.first == "times" || e.first == "power";
+  });
+}
+
 /// `value` with every {from: AXIS, times: A, power: P} in it replaced by its number.
 ConfigNode resolved(const ConfigNode& value, const Study& study,
                     const std::vector<AxisOption>& place) {
@@ -28,7 +43,7 @@ ConfigNode resolved(const ConfigNode& value, const Study& study,
     return out;
   }
   if (value.kind() != ConfigNode::Kind::kMap) return value;
-  if (!value.find("from")) {
+  if (!isExpression(value, study)) {
     ConfigNode out = ConfigNode::map(value.where());
     for (const auto& [key, child] : value.entries()) out.set(key, resolved(child, study, place));
     return out;

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "core/config_reader.hpp"
+#include "core/config_values.hpp"
 #include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "core/yaml_file.hpp"
@@ -24,12 +25,9 @@ constexpr std::array<std::string_view, 6> kFixedColumns = {
     "case", "seed", "outcome", "reason", "simulated_s", "trajectory_digest"};
 
 std::optional<double> asNumber(const ConfigNode& node) {
-  if (node.kind() != ConfigNode::Kind::kScalar || node.quoted() || node.text().empty())
-    return std::nullopt;
-  char* end = nullptr;
-  const double value = std::strtod(node.text().c_str(), &end);
-  if (*end != '\0' || !std::isfinite(value)) return std::nullopt;
-  return value;
+  if (node.kind() != ConfigNode::Kind::kScalar || node.quoted()) return std::nullopt;
+  const std::optional<double> value = parseNumber(node.text());
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::string requireText(const ConfigNode& node, const std::string& what) {
@@ -131,7 +129,7 @@ std::vector<AxisOption> readOptions(const ConfigNode& node) {
 
 StudyAxis readAxis(ConfigReader& in) {
   StudyAxis axis;
-  axis.name = in.text("name");
+  axis.name = readFileName(in, "name");
   axis.unit = in.textOr("unit", "");
   const ConfigNode* paths = in.raw("paths");
   const ConfigNode* values = in.raw("values");
@@ -170,12 +168,12 @@ std::vector<std::uint64_t> readSeeds(ConfigReader& in) {
   const ConfigNode* node = in.raw("seeds");
   std::vector<std::uint64_t> seeds;
   const auto add = [&](const ConfigNode& item) {
-    const auto number = asNumber(item);
-    if (!number || *number < 0 || *number > 9e15 || *number != std::floor(*number)) {
+    const auto seed = item.quoted() ? std::nullopt : parseWhole(item.text());
+    if (!seed || *seed < 0) {
       throw InputError(
           fmt::format("{}: a seed must be a whole number, not negative", toText(item.where())));
     }
-    seeds.push_back(static_cast<std::uint64_t>(*number));
+    seeds.push_back(static_cast<std::uint64_t>(*seed));
   };
   if (!node) return {1};
   if (node->kind() == ConfigNode::Kind::kList) {
@@ -287,7 +285,7 @@ Study loadStudy(const std::string& path) {
     throw InputError(fmt::format("{}: a study must be a mapping of keys to values", path));
   }
   ConfigReader in(s.tree);
-  s.name = in.text("name");
+  s.name = readFileName(in, "name");
   s.summary = in.textOr("summary", "");
   in.text("scenario");
   const ConfigNode& scenario = *in.raw("scenario");
@@ -317,7 +315,9 @@ Study loadStudy(const std::string& path) {
   s.timeout_s = in.numberOr("timeout_s", s.timeout_s, {0.1, 1e6});
   const bool sampled = s.design == StudyDesign::kLatinHypercube;
   s.samples = sampled ? in.integer("samples", {1, 1e6}) : 0;
-  if (sampled) s.design_seed = static_cast<std::uint64_t>(in.numberOr("design_seed", 1, {0, 9e15}));
+  if (sampled && in.has("design_seed")) {
+    s.design_seed = static_cast<std::uint64_t>(readWhole(in, "design_seed", {0, kLargestWhole}));
+  }
   if (in.has("search")) s.search = readSearch(in.child("search"), s);
   if (in.has("report")) s.report = readReport(in.child("report"), s);
   in.finish();

@@ -57,6 +57,7 @@ SvgAxes successAxes(const Study& study, const StudyView& view, const StudyPanel&
   for (const StudyCurve& curve : panel.curves) {
     std::vector<double> x, middle, low, high;
     for (const auto& point : curve.points) {
+      if (point.rate.count == 0) continue;
       x.push_back(point.value);
       middle.push_back(point.rate.rate());
       low.push_back(point.rate.low);

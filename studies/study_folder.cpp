@@ -111,7 +111,7 @@ StudyFolder StudyFolder::resume(const std::string& wanted, const Study& study,
   const Json now = manifest(study, readScenario(scenario_tree));
   const auto then = Json::parse(readTextFile(path + "/manifest.json"), nullptr, false);
   for (const char* key : {"study_digest", "build"}) {
-    if (then.is_discarded() || then.value(key, Json()) != now.at(key)) {
+    if (!then.is_object() || then.value(key, Json()) != now.at(key)) {
       throw InputError(fmt::format(
           "{}: was begun with another {}; its results would not fit together with new ones. "
           "Begin again in another folder",

@@ -61,7 +61,7 @@ std::string heatMap(const StudyView& view, const StudyPanel& panel) {
     for (const auto& column : columns) {
       const auto point = std::find_if(curve.points.begin(), curve.points.end(),
                                       [&](const auto& p) { return p.label == column.second; });
-      out += point == curve.points.end()
+      out += point == curve.points.end() || point->rate.count == 0
                  ? std::string("<td class=\"none\"></td>")
                  : fmt::format("<td style=\"--rate:{:.3f}\">{}/{}</td>", point->rate.rate(),
                                point->rate.passed, point->rate.count);

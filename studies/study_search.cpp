@@ -4,14 +4,16 @@
 
 #include <fmt/format.h>
 
+#include "studies/study_view.hpp"
+
 namespace ballbot {
 namespace {
 
-/// Passed or not, over all seeds at a place. A case that did not run has not passed.
+/// Over all seeds at a place.
 RateEstimate rateAt(const std::vector<StudyCase>& cases, const StudyEngine& engine) {
-  int passed = 0;
-  for (const StudyCase& c : cases) passed += engine.result(c).outcome == CaseOutcome::kPassed;
-  return wilsonInterval(passed, static_cast<int>(cases.size()));
+  std::vector<const CaseResult*> results;
+  for (const StudyCase& c : cases) results.push_back(&engine.result(c));
+  return rateOf(results);
 }
 
 }  // namespace
@@ -79,6 +81,8 @@ std::string toText(const Boundary& b, double rate, const std::string& unit) {
     return fmt::format("at least {:g} % pass everywhere in the range", 100 * rate);
   if (b.kind == Boundary::Kind::kPassesNowhere)
     return fmt::format("fewer than {:g} % pass everywhere in the range", 100 * rate);
+  if (b.kind == Boundary::Kind::kUnknown)
+    return "where cases stop to pass is unknown: none ran at a value that decides it";
   const auto end = [&](const std::optional<double>& value, const char* open) {
     return value ? fmt::format("{:.3g}", *value) : std::string(open);
   };

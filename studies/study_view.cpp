@@ -49,8 +49,20 @@ std::string panelName(const Study& study, const StudyCase& c, std::size_t along,
 
 Boundary StudyCurve::boundary(double rate) const {
   std::map<double, RateEstimate> rates;
-  for (const Point& point : points) rates[point.value] = point.rate;
-  return boundaryIn(rates, rate);
+  for (const Point& point : points) {
+    if (point.rate.count > 0) rates[point.value] = point.rate;
+  }
+  return rates.size() < 2 ? Boundary{Boundary::Kind::kUnknown, true, 0, {}, {}}
+                          : boundaryIn(rates, rate);
+}
+
+RateEstimate rateOf(const std::vector<const CaseResult*>& results) {
+  int passed = 0, count = 0;
+  for (const CaseResult* r : results) {
+    passed += r->outcome == CaseOutcome::kPassed;
+    count += ran(r->outcome);
+  }
+  return wilsonInterval(passed, count);
 }
 
 std::optional<MetricSpread> StudyCurve::Point::spread(const std::string& metric) const {
@@ -135,9 +147,7 @@ StudyView arrange(const Study& study, const std::vector<StudyCase>& cases,
                              [](const StudyCurve::Point& x) { return x.results.empty(); }),
               p.end());
       for (StudyCurve::Point& point : p) {
-        int passed = 0;
-        for (const CaseResult* r : point.results) passed += r->outcome == CaseOutcome::kPassed;
-        point.rate = wilsonInterval(passed, static_cast<int>(point.results.size()));
+        point.rate = rateOf(point.results);
       }
     }
   }

@@ -30,9 +30,14 @@ struct StudyCurve {
   };
   std::vector<Point> points;
 
-  /// Where the rate of passing crosses `rate` along the curve. Needs two points.
+  /// Where the rate of passing crosses `rate` along the curve; unknown with fewer than two points
+  /// at which a case ran.
   Boundary boundary(double rate) const;
 };
+
+/// The rate of passing among the cases that ran: a crash or a timeout is a fact of the machine and
+/// says nothing about the robot.
+RateEstimate rateOf(const std::vector<const CaseResult*>& results);
 
 /// What is drawn together: all axes but two stand still.
 struct StudyPanel {

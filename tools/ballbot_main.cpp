@@ -2,9 +2,12 @@
 #include <exception>
 
 #include "tools/commands.hpp"
+#include "tools/number_options.hpp"
+#include "tools/standard_streams.hpp"
 
 int main(int argc, char** argv) {
   using namespace ballbot;
+  prepareStandardStreams();
   CLI::App program{
       "ballbot: co-simulation of a robot that balances on a ball.\n"
       "A high-fidelity plant and a controller, each a process of its own, step each other over LCM;\n"
@@ -37,16 +40,26 @@ int main(int argc, char** argv) {
   addStudyCommand(program, result);
   addDoctorCommand(program, result);
 
+  readNumbersAsFilesDo(program);
+
   try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    const int code = program.exit(e);
-    return code == 0 ? 0 : static_cast<int>(ExitCode::kBadInput);
+    try {
+      program.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+      if (program.exit(e) != 0) result = ExitCode::kBadInput;
+    }
+    finishStandardOutput();
   } catch (const Error& e) {
     std::fprintf(stderr, "ballbot: %s\n", e.what());
     return static_cast<int>(e.exitCode());
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "ballbot: unexpected: %s\n", e.what());
+    // Printing throws where stdout takes no more, beside what nobody foresaw.
+    try {
+      finishStandardOutput();
+      std::fprintf(stderr, "ballbot: unexpected: %s\n", e.what());
+    } catch (const OutputError& lost) {
+      std::fprintf(stderr, "ballbot: %s\n", lost.what());
+    }
     return static_cast<int>(ExitCode::kOutputFailed);
   }
   return static_cast<int>(result);

@@ -1,4 +1,7 @@
+#include <cerrno>
 #include <cstdint>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -8,9 +11,10 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "core/number_text.hpp"
 #include "cosim/log_compare.hpp"
-#include "experiment/build_info.hpp"
 #include "experiment/checkpoint_files.hpp"
+#include "experiment/recorded_run.hpp"
 #include "experiment/run_experiment.hpp"
 #include "experiment/text_file.hpp"
 #include "report/json_text.hpp"
@@ -27,11 +31,20 @@ struct CheckArguments {
   bool in_process = false, json = false, quiet = false;
 };
 
-/// A folder beside the checked run that goes when this object goes.
+/// A folder that goes when this object goes. Not beside the checked run: that may lie where nobody
+/// may write.
 class ScratchFolder {
  public:
-  explicit ScratchFolder(const std::string& beside)
-      : path_(fmt::format("{}.check-{}", std::filesystem::path(beside).lexically_normal().string(), ::getpid())) {}
+  ScratchFolder() {
+    std::error_code failed;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path(failed);
+    path_ = (folder / "ballbot_check_XXXXXX").string();
+    if (failed || ::mkdtemp(path_.data()) == nullptr) {
+      throw OutputError(
+          fmt::format("the temporary folder cannot be used: {}. Name another one in TMPDIR",
+                      failed ? failed.message() : path_ + ": " + std::strerror(errno)));
+    }
+  }
   ~ScratchFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
@@ -42,25 +55,27 @@ class ScratchFolder {
   std::string path_;
 };
 
-/// Names what in the manifest is not as when the run was made: bits are promised for one build.
-std::string buildDifference(const RunFolder& run) {
-  const auto manifest = nlohmann::json::parse(readTextFile(run.manifestFile()), nullptr, false);
-  if (manifest.is_discarded() || !manifest.contains("build")) {
-    throw InputError(run.manifestFile() + ": is not a manifest; was the folder edited?");
+/// What is to be found again. @throw InputError if there is nothing complete and undamaged, which
+/// is said before anything is run
+RecordedSummary recordedSummary(const RunFolder& run) {
+  auto summary = readSummary(run);
+  if (!summary) {
+    throw InputError(fmt::format(
+        "{}: was interrupted (there is no summary.json), so there is no whole run to find again. "
+        "Run it again and compare what there is: ballbot compare",
+        run.path()));
   }
-  std::string out;
-  for (const auto& [key, now] : buildInfo()) {
-    const std::string then = manifest["build"].value(key, "");
-    if (then != now) out += fmt::format("{}{} was {}, is {}", out.empty() ? "" : "; ", key, then, now);
-  }
-  return out;
+  requireUnedited(run);
+  requireWholeLog(run);
+  return *summary;
 }
 
 ExitCode checkRun(const CheckArguments& arguments) {
   const RunFolder original = RunFolder::open(arguments.run);
-  const std::string other_build = buildDifference(original);
+  const RecordedSummary then = recordedSummary(original);
+  const std::string other_build = buildDifference(readManifest(original));
   const Scenario scenario = loadScenario(original.scenarioFile(), {}, arguments.seed);
-  const ScratchFolder scratch(original.path());
+  const ScratchFolder scratch;
 
   Progress progress("check " + scenario.name, arguments.quiet);
   RunOptions options;
@@ -75,18 +90,18 @@ ExitCode checkRun(const CheckArguments& arguments) {
   progress.finish();
 
   auto difference = compareLogs(original.logFile(), again.logFile());
-  const std::string summary_then = readTextFile(original.summaryFile());
-  const std::string summary_now = readTextFile(again.summaryFile());
-  const bool identical = !difference && summary_then == summary_now;
-  std::string text = difference ? difference->text : identical ? "identical" : "summary.json differs, the log does not";
-  if (!identical && !other_build.empty()) text += "\nThis is another build: " + other_build;
+  const bool identical = !difference && then.text == readTextFile(again.summaryFile());
+  std::string text = difference  ? difference->text
+                     : identical ? "identical"
+                                 : "summary.json differs, the log does not";
+  if (!other_build.empty()) text += "\nThis is another build: " + other_build;
   if (arguments.json) {
     nlohmann::ordered_json out;
     out["identical"] = identical;
     out["text"] = text;
     if (difference) {
       out["tick"] = difference->tick;
-      out["time_s"] = toSeconds(difference->time);
+      out["time_s"] = decimalSeconds(toNs(difference->time));
       if (difference->channel) out["channel"] = channelName(*difference->channel);
     }
     fmt::print("{}\n", jsonText(out));
@@ -110,7 +125,8 @@ void addCheckCommand(CLI::App& program, ExitCode& result) {
   command->footer(
       "Example:\n  ballbot check runs/balance-001\n"
       "Exit codes: 0 identical, 1 it differs (the first tick and channel are named), 2 bad input,\n"
-      "3 a participant was lost.");
+      "or the folder is damaged, was edited, or is of an interrupted run, 3 a participant was "
+      "lost.");
   command->callback([&result, a] { result = checkRun(*a); });
 }
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cosim/log_compare.hpp"
+#include "core/number_text.hpp"
+#include "experiment/run_comparison.hpp"
 #include "experiment/run_folder.hpp"
-#include "experiment/text_file.hpp"
 #include "report/json_text.hpp"
 #include "tools/commands.hpp"
 
@@ -17,39 +17,36 @@ struct CompareArguments {
   bool json = false;
 };
 
-nlohmann::ordered_json metricsOf(const RunFolder& folder) {
-  try {
-    return nlohmann::ordered_json::parse(readTextFile(folder.summaryFile())).at("metrics");
-  } catch (const nlohmann::json::exception&) {
-    throw InputError(folder.summaryFile() + ": is not a summary; was the run interrupted?");
+nlohmann::ordered_json toJson(const RunComparison& c) {
+  nlohmann::ordered_json out;
+  out["identical"] = c.identical();
+  out["text"] = c.text();
+  if (c.difference) {
+    out["first_difference"] = {{"tick", c.difference->tick},
+                               {"time_s", decimalSeconds(toNs(c.difference->time))},
+                               {"text", c.difference->text}};
+    if (c.difference->channel) {
+      out["first_difference"]["channel"] = channelName(*c.difference->channel);
+    }
   }
+  for (const auto& [name, values] : c.metrics) out["metrics"][name] = {values.first, values.second};
+  if (!c.notes.empty()) out["notes"] = c.notes;
+  return out;
 }
 
-ExitCode compareRuns(const CompareArguments& arguments) {
-  const RunFolder a = RunFolder::open(arguments.a), b = RunFolder::open(arguments.b);
-  const auto difference = compareLogs(a.logFile(), b.logFile(), RunBegin::kMayBeLater);
-  const nlohmann::ordered_json metrics_a = metricsOf(a), metrics_b = metricsOf(b);
+ExitCode compareFolders(const CompareArguments& arguments) {
+  const RunComparison c = compareRuns(RunFolder::open(arguments.a), RunFolder::open(arguments.b));
   if (arguments.json) {
-    nlohmann::ordered_json out;
-    out["identical"] = !difference;
-    if (difference) {
-      out["first_difference"] = {{"tick", difference->tick}, {"time_s", toSeconds(difference->time)},
-                                 {"text", difference->text}};
-      if (difference->channel) out["first_difference"]["channel"] = channelName(*difference->channel);
-    }
-    for (const auto& [name, value] : metrics_a.items()) {
-      if (metrics_b.contains(name)) out["metrics"][name] = {value, metrics_b[name]};
-    }
-    fmt::print("{}\n", jsonText(out));
+    fmt::print("{}\n", jsonText(toJson(c)));
   } else {
-    fmt::print("{}\n", difference ? difference->text : "identical");
-    fmt::print("{:<32} {:>14} {:>14}\n", "metric", "first", "second");
-    for (const auto& [name, value] : metrics_a.items()) {
-      if (!metrics_b.contains(name)) continue;
-      fmt::print("{:<32} {:>14.6g} {:>14.6g}\n", name, value.get<double>(), metrics_b[name].get<double>());
+    fmt::print("{}\n", c.text());
+    for (const std::string& note : c.notes) fmt::print("{}\n", note);
+    if (!c.metrics.empty()) fmt::print("{:<32} {:>14} {:>14}\n", "metric", "first", "second");
+    for (const auto& [name, values] : c.metrics) {
+      fmt::print("{:<32} {:>14.6g} {:>14.6g}\n", name, values.first, values.second);
     }
   }
-  return difference ? ExitCode::kRequirementMissed : ExitCode::kPassed;
+  return c.identical() ? ExitCode::kPassed : ExitCode::kRequirementMissed;
 }
 
 }  // namespace
@@ -62,8 +59,8 @@ void addCompareCommand(CLI::App& program, ExitCode& result) {
   command->add_flag("--json", a->json, "Print as JSON");
   command->footer(
       "Example:\n  ballbot compare runs/push-001 runs/push-002\n"
-      "Exit codes: 0 identical, 1 they differ, 2 bad input.");
-  command->callback([&result, a] { result = compareRuns(*a); });
+      "Exit codes: 0 identical, 1 they differ, 2 bad input, or a folder is damaged or was edited.");
+  command->callback([&result, a] { result = compareFolders(*a); });
 }
 
 }  // namespace ballbot

@@ -7,9 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "cosim/log_reader.hpp"
 #include "experiment/estimate_log.hpp"
 #include "experiment/estimate_report.hpp"
+#include "experiment/recorded_run.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/run_folder.hpp"
 #include "experiment/text_file.hpp"
@@ -31,12 +33,24 @@ struct Sources {
   std::string log, scenario, out;
 };
 
+bool sameSettings(const EstimateArguments& a) { return a.overrides.empty() && a.scenario.empty(); }
+
+/// Where an estimate with other settings goes, so that it replaces none.
+std::string nextFree(const std::string& run) {
+  for (int i = 1;; ++i) {
+    std::string path = fmt::format("{}/estimate-{:03}", run, i);
+    if (!std::filesystem::exists(path)) return path;
+  }
+}
+
 /// A run folder holds log and scenario; a log alone needs to be told whose it is.
 Sources sourcesOf(const EstimateArguments& a) {
   if (std::filesystem::is_directory(a.run)) {
     const RunFolder folder = RunFolder::open(a.run);
+    if (a.scenario.empty()) requireUnedited(folder);
+    const std::string out = sameSettings(a) ? folder.path() + "/estimate" : nextFree(folder.path());
     return {folder.logFile(), a.scenario.empty() ? folder.scenarioFile() : a.scenario,
-            a.out.empty() ? folder.path() + "/estimate" : a.out};
+            a.out.empty() ? out : a.out};
   }
   if (a.scenario.empty()) {
     throw InputError(fmt::format(
@@ -57,7 +71,7 @@ nlohmann::ordered_json toJson(const LogEstimate& e) {
   out["estimates"] = e.estimates.size();
   out["compared_with_online"] = e.compared;
   out["identical_to_online"] = e.identical();
-  if (e.first_difference) out["first_difference_s"] = toSeconds(*e.first_difference);
+  if (e.first_difference) out["first_difference_s"] = decimalSeconds(toNs(*e.first_difference));
   return out;
 }
 
@@ -81,7 +95,8 @@ void printTable(const LogEstimate& e, const std::vector<std::string>& files) {
 ExitCode estimateRun(const EstimateArguments& a) {
   const Sources from = sourcesOf(a);
   const Scenario scenario = loadScenario(from.scenario, a.overrides);
-  const RunLog log = readRunLog(from.log);
+  const RunLog log = std::filesystem::is_directory(a.run) ? readRecordedLog(RunFolder::open(a.run))
+                                                          : readRunLog(from.log);
   const LogEstimate estimate = estimateLog(scenario, log);
 
   RunLog made;
@@ -93,8 +108,7 @@ ExitCode estimateRun(const EstimateArguments& a) {
   writeTextFile(files.back(), jsonText(toJson(estimate)) + "\n");
   if (!a.no_report) {
     files.push_back(from.out + "/report.html");
-    const bool same_settings = a.overrides.empty() && a.scenario.empty();
-    writeEstimateReport(scenario, estimate, same_settings, files.back());
+    writeEstimateReport(scenario, estimate, sameSettings(a), files.back());
   }
   if (a.json) {
     nlohmann::ordered_json out = toJson(estimate);
@@ -103,8 +117,13 @@ ExitCode estimateRun(const EstimateArguments& a) {
   } else {
     printTable(estimate, files);
   }
-  if (log.cut_off) fmt::print(stderr, "{}: the log ends in the middle of an event; all before it was used\n", from.log);
-  return ExitCode::kPassed;
+  if (log.cut_off) {
+    fmt::print(stderr, "{}: the log ends in the middle of an event; all before it was used\n",
+               from.log);
+  }
+  if (log.damage.none()) return ExitCode::kPassed;
+  fmt::print(stderr, "ballbot: {}: {}. What is readable was used\n", from.log, log.damage.text());
+  return ExitCode::kBadInput;
 }
 
 }  // namespace
@@ -119,7 +138,9 @@ void addEstimateCommand(CLI::App& program, ExitCode& result) {
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
-  command->add_option("--out", a->out, "Folder for the results (default: RUN/estimate)");
+  command->add_option("--out", a->out,
+                      "Folder for the results (default: RUN/estimate; with --set or --scenario the "
+                      "next free RUN/estimate-NNN)");
   command->add_flag("--no-report", a->no_report, "Do not write report.html");
   command->add_flag("--json", a->json, "Print the numbers as JSON");
   command->footer(
@@ -127,7 +148,9 @@ void addEstimateCommand(CLI::App& program, ExitCode& result) {
       "  ballbot estimate runs/push-001\n"
       "  ballbot estimate runs/push-001 --set estimator.noise.accel_inflation=1 --json\n"
       "  ballbot estimate bench.lcmlog --scenario configs/scenarios/balance.yaml\n"
-      "Exit codes: 0 done, 2 bad input, 4 output could not be written.");
+      "Exit codes: 0 done, 2 bad input, or the log is damaged (what is readable was used), 4 "
+      "output could\n"
+      "not be written.");
   command->callback([&result, a] { result = estimateRun(*a); });
 }
 

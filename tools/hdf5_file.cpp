@@ -5,17 +5,25 @@
 #include <hdf5.h>
 
 #include "core/error.hpp"
+#include "experiment/text_file.hpp"
 
 namespace ballbot {
 namespace {
 
 [[noreturn]] void failed(const std::string& what) {
-  throw OutputError(what + ": HDF5 could not write it. Is the disk full?");
+  throw OutputError(what + ": HDF5 could not make it. Is there enough memory?");
 }
 
+constexpr std::size_t kGrowth_bytes = std::size_t{1} << 20;
+
+/// A file that lives in memory only.
 hid_t createFile(const std::string& path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are said once, by us
-  return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t in_memory = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_fapl_core(in_memory, kGrowth_bytes, false);
+  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, in_memory);
+  H5Pclose(in_memory);
+  return file;
 }
 
 }  // namespace
@@ -71,6 +79,16 @@ struct Hdf5File::Impl {
 
 Hdf5File::Hdf5File(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
 Hdf5File::~Hdf5File() = default;
+
+void Hdf5File::finish() {
+  impl_->group.reset();
+  if (H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) < 0) failed(impl_->path);
+  const ssize_t size = H5Fget_file_image(impl_->file, nullptr, 0);
+  if (size <= 0) failed(impl_->path);
+  std::string image(static_cast<std::size_t>(size), '\0');
+  if (H5Fget_file_image(impl_->file, image.data(), image.size()) != size) failed(impl_->path);
+  writeTextFile(impl_->path, image);
+}
 
 void Hdf5File::beginGroup(const std::string& name) {
   impl_->group = std::make_unique<Impl::Handle>(

@@ -7,12 +7,15 @@
 
 namespace ballbot {
 
-/// An HDF5 file being written: groups of columns. The same content gives the same bytes: no times
-/// of creation are kept in it. @throw OutputError from every call
+/// An HDF5 file being made: groups of columns. The same content gives the same bytes: no times
+/// of creation are kept in it. It is made in memory and written by finish(), because the library
+/// crashes when a disk is full. @throw OutputError from every call
 class Hdf5File {
  public:
   explicit Hdf5File(const std::string& path);
   ~Hdf5File();
+  /// Writes it, as a whole or not at all. Without this nothing is written.
+  void finish();
 
   /// Columns added from now on belong to this group; before the first, to the file itself.
   void beginGroup(const std::string& name);

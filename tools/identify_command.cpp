@@ -1,6 +1,5 @@
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 
 #include "core/angle.hpp"
 #include "experiment/scenario.hpp"
+#include "experiment/text_file.hpp"
 #include "hil/identify_drive.hpp"
 #include "hil/identify_report.hpp"
 #include "hil/open_can_bus.hpp"
@@ -50,9 +50,7 @@ nlohmann::ordered_json responseJson(const TorqueResponse& r) {
 }
 
 void writeIdentifiedFile(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  if (!file.flush()) throw OutputError(path + ": cannot be written");
+  writeTextFile(path, text);
   fmt::print(stderr, "identify: wrote {}\n", path);
 }
 

@@ -44,13 +44,10 @@ int processors() {
 
 /// --set: for all cases, and part of what the study is.
 void addOverride(Study& study, const std::string& text) {
-  const std::size_t equals = text.find('=');
-  ConfigNode probe = ConfigNode::map({});
-  applyOverride(probe, text);  // says what is wrong with it
-  const ConfigNode value = parseYaml(text.substr(equals + 1), "--set " + text);
-  study.base.emplace_back(text.substr(0, equals), value);
+  const auto [path, value] = readOverride(text);
+  study.base.emplace_back(path, value);
   if (!study.tree.find("set")) study.tree.set("set", ConfigNode::map({}));
-  study.tree.find("set")->set(text.substr(0, equals), value);
+  study.tree.find("set")->set(path, value);
 }
 
 /// --find boundary=AXIS or boundary=PATH, instead of the study's own search.
@@ -125,6 +122,30 @@ void removeScratch(const StudyFolder& folder) {
   std::filesystem::remove_all(folder.file("scratch"), ignored);
 }
 
+/// The command that goes on with a study. All that decides what the study is must stand in it.
+std::vector<std::string> resumeCommand(const StudyArguments& a, const StudyFolder& folder) {
+  std::vector<std::string> words = {"ballbot",  "study", a.study,
+                                    "--resume", "--out", folder.path()};
+  const auto add = [&](std::initializer_list<std::string> more) {
+    words.insert(words.end(), more.begin(), more.end());
+  };
+  for (const std::string& text : a.overrides) add({"--set", text});
+  if (!a.find.empty()) {
+    add({"--find", a.find, "--rate", numberText(a.rate)});
+    if (a.between.size() == 2) {
+      add({"--between", numberText(a.between[0]), numberText(a.between[1])});
+    }
+    if (a.whole) add({"--whole"});
+  }
+  if (a.keep_runs) add({"--keep-runs"});
+  if (a.jobs > 0) add({"--jobs", std::to_string(a.jobs)});
+  if (a.launcher == "local") return words;
+  add({"--launcher", a.launcher});
+  if (a.cases_per_task > 0) add({"--cases-per-task", std::to_string(a.cases_per_task)});
+  for (const std::string& option : a.sbatch_options) add({"--sbatch=" + option});
+  return words;
+}
+
 ExitCode runStudy(const StudyArguments& a) {
   const auto started = std::chrono::steady_clock::now();
   Study study = loadStudy(a.study);
@@ -155,7 +176,7 @@ ExitCode runStudy(const StudyArguments& a) {
   } catch (const Error&) {
     progress.finish();
     fmt::print(stderr, "What is done is in {}; go on with\n  {}\n", folder.path(),
-               commandLine({"ballbot", "study", a.study, "--resume", "--out", folder.path()}));
+               commandLine(resumeCommand(a, folder)));
     if (a.submit_only && !*interruptFlag()) return ExitCode::kPassed;
     throw;
   }

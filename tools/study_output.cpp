@@ -41,6 +41,7 @@ void writeHdf5(const ResultTable& table, const std::string& path) {
       file.addNumbers(column.name, column.numbers, column.unit);
     }
   }
+  file.finish();
 }
 
 /// Processor time of this process or of its children that have ended [s].

@@ -42,6 +42,7 @@ void exportHdf5(const std::vector<LogTable>& tables, const std::string& path) {
     for (const LogTable::Column& column : table.columns)
       file.addNumbers(column.name, column.values, column.unit);
   }
+  file.finish();
 }
 
 }  // namespace ballbot

@@ -104,6 +104,15 @@ TEST(BoundarySearch, SaysWhenThereIsNoBoundary) {
   EXPECT_EQ(toText(none, 0.5, "Hz"), "fewer than 50 % pass everywhere in the range");
 }
 
+TEST(BoundarySearch, StopsWhereNoCaseRanAndSaysSo) {
+  BoundarySearch search({1, 100, true, false}, 0.5, 0.02);
+  search.tell(1, wilsonInterval(4, 4));
+  search.tell(100, wilsonInterval(0, 0));
+  EXPECT_TRUE(search.next().empty());
+  EXPECT_EQ(search.boundary().kind, Boundary::Kind::kUnknown);
+  EXPECT_THAT(toText(search.boundary(), 0.5, "Hz"), ::testing::HasSubstr("is unknown: none ran"));
+}
+
 TEST(BoundarySearch, WithTooFewCasesTheEndsOfTheIntervalAreOpen) {
   const Boundary b = searched(BoundarySearch({1, 100, true, false}, 0.5, 0.02), 2, stepAt7);
   EXPECT_FALSE(b.low);

@@ -49,6 +49,26 @@ TEST_F(StudyAnswer, SaysWhereEachCurveBeginsToPass) {
                           "(95 %: 5 to 10 Hz); from 16 cases."));
 }
 
+TEST_F(StudyAnswer, CasesThatDidNotRunCountNeitherWay) {
+  CaseResult passed, lost;
+  passed.outcome = CaseOutcome::kPassed;
+  lost.outcome = CaseOutcome::kTimedOut;
+  EXPECT_EQ(rateOf({&passed, &lost, &passed}).rate(), 1);
+  EXPECT_EQ(rateOf({&lost}).count, 0);
+  StudyCurve run{"", {}};
+  for (const double value : {1.0, 2.0, 30.0}) {
+    std::vector<const CaseResult*> results(2, value < 10 ? &passed : &lost);
+    run.points.push_back({"", value, rateOf(results), results});
+  }
+  view_.curves = nullptr;
+  view_.panels = {{"", {run}}};
+  study_.name = "length";
+  EXPECT_THAT(
+      studyAnswer(study_, view_),
+      ElementsAre("length: along bandwidth, at least 50 % pass everywhere in the range; from "
+                  "4 cases, 2 more did not run."));
+}
+
 TEST_F(StudyAnswer, CountsADifferenceOnlyWhereItIsCertain) {
   add("delay 10 ms", {0, 0, 4, 4}, {0, 4, 4, 4});  // at 10: none of four against four of four
   add("delay 5 ms", {0, 2, 4, 4}, {0, 4, 4, 4});   // two of four may be luck

@@ -49,6 +49,17 @@ TEST(StudyCases, LinkedPathsAndExpressionsFollowTheirAxis) {
             "--set 'c.shape={fa: 20}'");
 }
 
+TEST(StudyCases, AFromThatIsNoAxisIsLeftAlone) {
+  const std::vector<StudyCase> cases = generateCases(
+      studyOf("set: {fmus: [{name: g, connections: [{from: g.y, to: 'plant.force.base_W[1]'}]}]}\n"
+              "axes: [{name: k, paths: [fmus.0.gain], values: [1, 2]}]\n"));
+  EXPECT_THAT(cases[0].overrides[0], HasSubstr("from: g.y, to: "));
+  // A name of no axis where nothing else can be meant is still a mistake.
+  const Study wrong =
+      studyOf("set: {a: {from: b, times: 2}}\naxes: [{name: k, paths: [c], values: [1, 2]}]\n");
+  EXPECT_THROW(generateCases(wrong), InputError);
+}
+
 TEST(StudyCases, TheNameOfACaseIsTheDigestOfWhatItRuns) {
   const std::vector<StudyCase> cases = generateCases(studyOf(kTwoAxes));
   std::set<std::string> ids;

@@ -104,6 +104,8 @@ TEST(StudyInterruption, CtrlCLeavesNoOrphanAndAFolderToGoOnWith) {
   EXPECT_EQ(end.exit_code, 130);
   EXPECT_THAT(end.err, HasSubstr("go on with\n  ballbot study "));
   EXPECT_THAT(end.err, HasSubstr("--resume --out " + out));
+  EXPECT_THAT(end.err, HasSubstr(" --set duration_s="))
+      << "without it the folder is another study's";
   waitUntilGone(cases);
   digestOf(runBallbot(smoke(out, true)));
   EXPECT_EQ(recordsIn(out), 8u);

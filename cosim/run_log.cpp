@@ -1,0 +1,116 @@
+// A whole log, typed: what LogReader gives, sorted by channel, and whether it can be believed.
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cosim/log_reader.hpp"
+
+namespace ballbot {
+namespace {
+
+/// Simulated time that the recorder stamps the event of a message with [us].
+template <typename Message>
+std::int64_t stampOf(const Message& message) {
+  return message.sim_time_ns / 1000;
+}
+std::int64_t stampOf(const ballbot_msgs::tick_digests& message) {
+  const std::int64_t offset = message.offset_ns.empty() ? 0 : message.offset_ns.back();
+  // Unsigned: what a stranger wrote may lie anywhere.
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(message.first_time_ns) +
+                                   static_cast<std::uint64_t>(offset)) /
+         1000;
+}
+
+bool isTypeOfRun(std::int64_t fingerprint) {
+  const std::int64_t known[] = {
+      ballbot_msgs::sensor_frame::getHash(),     ballbot_msgs::truth_frame::getHash(),
+      ballbot_msgs::state_estimate::getHash(),   ballbot_msgs::plan_report::getHash(),
+      ballbot_msgs::actuator_command::getHash(), ballbot_msgs::tick_digests::getHash()};
+  return std::find(std::begin(known), std::end(known), fingerprint) != std::end(known);
+}
+
+class RunLogReader {
+ public:
+  explicit RunLogReader(const std::string& path) : reader_(path) {}
+
+  RunLog read() {
+    while (reader_.next(event_)) take();
+    log_.cut_off = reader_.cutOff();
+    addDamage(reader_.damage());
+    for (const auto& [channel, stamps] : stamps_) {
+      // A channel that never agrees, as in logs of LCM's own logger, has the clock on the wall.
+      if (stamps.wrong.places < stamps.right) addDamage(stamps.wrong);
+    }
+    return std::move(log_);
+  }
+
+ private:
+  struct Stamps {
+    std::int64_t right = 0;
+    LogDamage wrong;
+  };
+
+  void take() {
+    if (event_.channel == channelName(Channel::kSensors)) {
+      keep(log_.sensors);
+    } else if (event_.channel == channelName(Channel::kTruth)) {
+      keep(log_.truth);
+    } else if (event_.channel == channelName(Channel::kEstimate)) {
+      keep(log_.estimates);
+    } else if (event_.channel == channelName(Channel::kPlan)) {
+      keep(log_.plans);
+    } else if (event_.channel == channelName(Channel::kCommand)) {
+      keep(log_.commands);
+    } else if (event_.channel == kTickDigestsChannel) {
+      keep(log_.digests);
+    } else if (isTypeOfRun(fingerprint(event_.data.data(), event_.data.size()))) {
+      lose("a message of a run stands on a channel that no run has");
+    } else if (++log_.unknown == 1) {
+      log_.unknown_channel = event_.channel;
+    }
+  }
+
+  template <typename Message>
+  void keep(std::vector<Message>& list) {
+    Message message{};
+    if (!event_.decode(message)) {
+      lose(fmt::format("its {} message is damaged", event_.channel));
+      return;
+    }
+    Stamps& stamps = stamps_[event_.channel];
+    if (stampOf(message) == event_.timestamp_us) {
+      ++stamps.right;
+    } else {
+      stamps.wrong.add(reader_.eventBegin(),
+                       fmt::format("its {} message is stamped {} us and is of {} us",
+                                   event_.channel, event_.timestamp_us, stampOf(message)));
+    }
+    list.push_back(std::move(message));
+  }
+
+  void lose(const std::string& what) {
+    log_.damage.add(reader_.eventBegin(), what);
+    ++log_.damage.lost_events;
+  }
+
+  void addDamage(const LogDamage& more) {
+    if (more.none()) return;
+    log_.damage.add(more.first_byte, more.first);
+    log_.damage.places += more.places - 1;
+    log_.damage.lost_events += more.lost_events;
+    log_.damage.lost_bytes += more.lost_bytes;
+  }
+
+  LogReader reader_;
+  LogEvent event_;
+  RunLog log_;
+  std::map<std::string, Stamps> stamps_;  // by channel
+};
+
+}  // namespace
+
+RunLog readRunLog(const std::string& path) { return RunLogReader(path).read(); }
+
+}  // namespace ballbot
