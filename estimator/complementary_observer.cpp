@@ -13,7 +13,7 @@ namespace ballbot {
 namespace {
 
 constexpr const char* kBlobKind = "complementary_observer";
-constexpr std::uint32_t kBlobVersion = 1;
+constexpr std::uint32_t kBlobVersion = 2;
 
 }  // namespace
 
@@ -42,15 +42,25 @@ ComplementaryObserver::ComplementaryObserver(const RobotParameters& robot,
       p_BI_B_(robot.p_BI_B),
       arm_(settings.arm_rate_time_constant_s) {}
 
-void ComplementaryObserver::update(const SensorFrame& frame, bool at_rest) noexcept {
-  if (!joints_.empty() && frame.time < joints_.newestTime()) return;
+bool ComplementaryObserver::update(const SensorFrame& frame, bool at_rest) noexcept {
+  const FrameTime when = order_.judge(frame.time);
+  if (when == FrameTime::kLate || when == FrameTime::kAhead) return false;
   arm_.update(frame);
-  if (!frame.joint_angle.allFinite()) return;
+  if (!frame.joint_angle.allFinite()) return true;
   joints_.add(frame.time, frame.joint_angle);
+  if (when == FrameTime::kLeap) {  // nothing is known of what was in between
+    time_ = frame.time;
+    joint_angle_ = frame.joint_angle;
+  }
   released_ = released_ || !at_rest;
-  if (frame.imu_count == imu_count_) return;
+  if (frame.imu_count != imu_count_) takeImu(frame);
+  return true;
+}
+
+void ComplementaryObserver::takeImu(const SensorFrame& frame) noexcept {
   imu_count_ = frame.imu_count;
   if (!frame.accel_B.allFinite() || !frame.gyro_WB_B.allFinite()) return;
+  if (frame.imu_time > frame.time) return;
   if (released_ && alignment_.samples() > 0) {
     if (frame.imu_time > time_) step(frame);
   } else {
@@ -114,6 +124,7 @@ StateEstimate ComplementaryObserver::estimate(SimTime now) const noexcept {
 
 StateBlob ComplementaryObserver::saveState() const {
   BlobWriter out;
+  order_.save(out);
   arm_.save(out);
   joints_.save(out);
   alignment_.save(out);
@@ -129,6 +140,7 @@ StateBlob ComplementaryObserver::saveState() const {
 void ComplementaryObserver::restoreState(const StateBlob& blob) {
   BlobReader in(blob, kBlobKind, kBlobVersion);
   ComplementaryObserver next = *this;  // so that a blob that does not fit leaves no trace
+  next.order_.restore(in);
   next.arm_.restore(in);
   next.joints_.restore(in);
   next.alignment_.restore(in);

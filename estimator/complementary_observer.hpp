@@ -3,6 +3,7 @@
 #include "estimator/arm_sensing.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/filter_state.hpp"
+#include "estimator/frame_order.hpp"
 #include "estimator/joint_history.hpp"
 #include "estimator/rest_alignment.hpp"
 #include "estimator/wheel_odometry.hpp"
@@ -39,14 +40,15 @@ class ComplementaryObserver final : public Estimator {
  public:
   ComplementaryObserver(const RobotParameters& robot, const ComplementarySettings& settings);
 
-  /// A frame that is older than the last one, or not finite, is passed over. Rest after the
-  /// release has no meaning of its own.
-  void update(const SensorFrame& frame, bool at_rest) noexcept override;
+  /// A frame that is older than the last one, far ahead of it, or not finite, is passed over. Rest
+  /// after the release has no meaning of its own.
+  bool update(const SensorFrame& frame, bool at_rest) noexcept override;
   StateEstimate estimate(SimTime now) const noexcept override;
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;
 
  private:
+  void takeImu(const SensorFrame& frame) noexcept;
   void align(const SensorFrame& frame) noexcept;
   void step(const SensorFrame& frame) noexcept;
 
@@ -58,6 +60,7 @@ class ComplementaryObserver final : public Estimator {
   Vector3 p_BI_B_;      ///< IMU from the ball centre [m]
 
   // State.
+  FrameOrder order_;
   ArmSensing arm_;
   JointHistory joints_;
   RestAlignment alignment_;

@@ -40,9 +40,11 @@ class Estimator {
   /// Takes the sensor frames of a run in order, one per period of the estimator.
   /// `at_rest`: the robot is known to be held still (before its release), so tilt and biases may
   /// be taken from what the sensors say.
-  virtual void update(const SensorFrame& frame, bool at_rest) noexcept = 0;
+  /// @return false for a frame that was passed over because of its time
+  virtual bool update(const SensorFrame& frame, bool at_rest) noexcept = 0;
 
-  /// The estimate brought forward to `now`, at or after the last frame's time.
+  /// The estimate brought forward to `now`, at or after the last frame's time; before that, as it
+  /// is.
   virtual StateEstimate estimate(SimTime now) const noexcept = 0;
 
   /// Nothing where an estimator keeps no account of its uncertainty, or has not begun to.

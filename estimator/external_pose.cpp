@@ -1,6 +1,7 @@
 #include "estimator/external_pose.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -9,6 +10,42 @@
 #include "model/frames.hpp"
 
 namespace ballbot {
+
+bool RestPose::add(const Vector3& pose_W, const ExternalPoseSettings& settings) noexcept {
+  Vector3 pose = pose_W;
+  if (samples_ > 0) {
+    pose[2] = unwrapped(pose[2], mean_[2]);
+    const double n = static_cast<double>(samples_);
+    const Vector3 sigma(settings.position_sigma_m, settings.position_sigma_m,
+                        settings.yaw_sigma_rad);
+    const double chi_square =
+        (pose - mean_).cwiseQuotient(std::sqrt(1 + 1 / n) * sigma).squaredNorm();
+    if (chi_square > settings.chi_square_limit) {
+      if (++refused_ < kPosesUntilBelieved) return false;
+      samples_ = 0;
+    }
+  }
+  refused_ = 0;
+  ++samples_;
+  mean_ = samples_ == 1 ? pose : Vector3(mean_ + (pose - mean_) / static_cast<double>(samples_));
+  return true;
+}
+
+Vector3 RestPose::mean() const noexcept {
+  return {mean_[0], mean_[1], unwrapped(mean_[2], 0.0)};
+}
+
+void RestPose::save(BlobWriter& out) const {
+  out.put(samples_);
+  out.put(refused_);
+  out.putDoubles(mean_.data(), 3);
+}
+
+void RestPose::restore(BlobReader& in) {
+  samples_ = in.get<std::int64_t>();
+  refused_ = in.get<int>();
+  in.getDoubles(mean_.data(), 3);
+}
 
 void PoseHistory::add(const Entry& entry) noexcept {
   entries_[static_cast<std::size_t>(next_)] = entry;
@@ -65,6 +102,12 @@ void PoseHistory::restore(BlobReader& in) {
 double PoseRows::chiSquare(const TangentMatrix& covariance) const noexcept {
   const Matrix3 S = H * covariance * H.transpose() + Matrix3::Identity();
   return y.dot(Vector3(Eigen::LLT<Matrix3>(S).solve(y)));
+}
+
+double PoseRows::yawCorrection(const TangentMatrix& covariance,
+                               const ExternalPoseSettings& settings) const noexcept {
+  const double variance = H.row(2) * covariance * H.row(2).transpose();
+  return -variance / (variance + 1) * settings.yaw_sigma_rad * y[2];
 }
 
 PoseRows poseRows(const FilterState& x, const PoseHistory::Entry& then,

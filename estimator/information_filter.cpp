@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
+
 #include "core/angle.hpp"
+#include "model/frames.hpp"
 
 namespace ballbot {
 namespace {
@@ -107,6 +110,28 @@ void InformationFilter::addRows(const Eigen::Matrix<double, 3, kTangentDim>& H,
   const TangentMatrix information = information_ + H.transpose().lazyProduct(H);
   x_ = x_.plus(-(inverseSpd(information) * (H.transpose() * y)));
   setInformation(information);
+}
+
+void InformationFilter::turn(double angle) noexcept {
+  const Eigen::Matrix2d Rz = Eigen::Rotation2Dd(angle).toRotationMatrix();
+  TangentMatrix P = covariance();
+  // A small yaw error d moves the position by slope d = z x (p - pivot) d.
+  const Vector3 up_B = x_.R_WB.transpose() * Vector3::UnitZ();
+  const Vector3 yaw_covariance = P.block<3, 3>(kTanAttitude, kTanAttitude) * up_B;
+  const Eigen::Vector2d slope =
+      P.block<2, 3>(kTanPosition, kTanAttitude) * up_B / up_B.dot(yaw_covariance);
+  const Eigen::Vector2d from_pivot(slope.y(), -slope.x());
+  x_.p_WK_W += Rz * from_pivot - from_pivot;
+  x_.R_WB = rotationFromYawPitchRoll(angle, 0, 0) * x_.R_WB;
+  x_.v_WK_W = Rz * x_.v_WK_W;
+  smooth_velocity_.turn(Rz);
+  accel_W_ = Rz * accel_W_;
+  // Errors of attitude, rates and biases are expressed in B and do not notice.
+  for (const int at : {kTanPosition, kTanVelocity}) {
+    P.middleRows<2>(at) = (Rz * P.middleRows<2>(at)).eval();
+    P.middleCols<2>(at) = (P.middleCols<2>(at) * Rz.transpose()).eval();
+  }
+  setInformation(inverseSpd(P));
 }
 
 void InformationFilter::relax(const TangentMatrix& extra_covariance) noexcept {

@@ -24,6 +24,13 @@ class InformationFilter {
 
   /// Measurement of the state alone, in rows of unit variance: 0 = y + H dx.
   void addRows(const Eigen::Matrix<double, 3, kTangentDim>& H, const Vector3& y) noexcept;
+  /// The robot stands turned by `angle` about the vertical from what was believed: attitude and
+  /// velocity turn exactly, and the position about the point from which it became uncertain with
+  /// yaw, which is where yaw was last known. No inertial or wheel residual changes [rad].
+  void turn(double angle) noexcept;
+  /// The state fits no measurement: forgets what it knew of tilt, velocity and accelerometer bias.
+  /// Position and yaw, which no measurement tells, are left alone.
+  void doubt() noexcept;
   /// Adds to the covariance: what was known becomes less certain.
   void relax(const TangentMatrix& extra_covariance) noexcept;
 
@@ -45,9 +52,6 @@ class InformationFilter {
  private:
   bool solveWithoutOutliers(IntervalMeasurement& m, FilterState& next,
                             std::array<bool, kWheelCount>& use, RejectionCounts& counts) noexcept;
-  /// The state fits no measurement: forgets what it knew of tilt, velocity and accelerometer bias.
-  /// Position and yaw, which no measurement tells, are left alone.
-  void doubt() noexcept;
   void setInformation(const TangentMatrix& information) noexcept;
 
   ResidualModel model_;

@@ -56,4 +56,22 @@ InitialEstimate initialEstimate(const RestAlignment& rest, bool at_rest,
   return out;
 }
 
+void placeAt(const RestPose& pose, const ExternalPoseSettings& settings,
+             InitialEstimate& estimate) noexcept {
+  if (pose.samples() == 0) return;
+  FilterState& x = estimate.x;
+  x.p_WK_W = pose.mean().head<2>();
+  const double yaw = yawPitchRollFromRotation(x.R_WB)[0];
+  x.R_WB = rotationFromYawPitchRoll(pose.mean()[2] - yaw, 0, 0) * x.R_WB;
+
+  // Tilt is known alike in all directions; so in B nothing but the yaw's own term changes.
+  TangentMatrix& L = estimate.information;
+  const double n = static_cast<double>(pose.samples());
+  L.diagonal().segment<2>(kTanPosition).setConstant(n * inverseSquare(settings.position_sigma_m));
+  const Vector3 up_B = x.R_WB.transpose() * Vector3::UnitZ();
+  const double yaw_before = up_B.dot(L.block<3, 3>(kTanAttitude, kTanAttitude) * up_B);
+  L.block<3, 3>(kTanAttitude, kTanAttitude) +=
+      (n * inverseSquare(settings.yaw_sigma_rad) - yaw_before) * up_B * up_B.transpose();
+}
+
 }  // namespace ballbot

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimator/filter_state.hpp"
+#include "estimator/external_pose.hpp"
 #include "estimator/residuals.hpp"
 #include "estimator/rest_alignment.hpp"
 
@@ -31,5 +31,10 @@ struct InitialEstimate {
 InitialEstimate initialEstimate(const RestAlignment& rest, bool at_rest,
                                 const InitialUncertainty& prior, const FilterNoise& noise,
                                 double imu_period_s, double gravity) noexcept;
+
+/// Poses seen at rest say where the robot stands, in place of the definition px = py = yaw = 0 and
+/// its uncertainty. Nothing changes if there were none.
+void placeAt(const RestPose& pose, const ExternalPoseSettings& settings,
+             InitialEstimate& estimate) noexcept;
 
 }  // namespace ballbot

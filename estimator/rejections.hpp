@@ -10,9 +10,11 @@ namespace ballbot {
 /// What an estimator does not believe, and why.
 enum class Rejection : int {
   kFrameLate,          ///< frame older than the one before
+  kFrameAhead,         ///< frame from a second or more after the one before
   kNotFinite,          ///< a sensor value is not a number
   kImuMissing,         ///< interval without an inertial sample
   kImuLate,            ///< inertial sample of an interval that was already gone through
+  kImuAhead,           ///< inertial sample from after the frame that brought it
   kAccelSpike,         ///< accelerometer jumped and jumped back
   kGyroSpike,          ///< gyroscope jumped and jumped back
   kAccelInconsistent,  ///< accelerometer against everything else

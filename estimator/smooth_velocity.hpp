@@ -31,6 +31,11 @@ class SmoothVelocity {
       value_ += gain * (1 - kDeadZone * kDeadZone / square) * behind;
   }
   void jumpTo(const Eigen::Vector2d& velocity_W) noexcept { first_ = value_ = velocity_W; }
+  /// The world turns out to lie otherwise about the vertical.
+  void turn(const Eigen::Matrix2d& rotation) noexcept {
+    first_ = rotation * first_;
+    value_ = rotation * value_;
+  }
 
   const Eigen::Vector2d& value() const { return value_; }  ///< [m/s]
 

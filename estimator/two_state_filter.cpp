@@ -1,5 +1,7 @@
 #include "estimator/two_state_filter.hpp"
 
+#include <algorithm>
+
 #include "estimator/attitude.hpp"
 #include "estimator/delay_compensation.hpp"
 #include "model/frames.hpp"
@@ -8,8 +10,10 @@ namespace ballbot {
 namespace {
 
 constexpr const char* kBlobKind = "two_state_filter";
-constexpr std::uint32_t kBlobVersion = 1;
-constexpr int kPosesUntilBelieved = 10;
+constexpr std::uint32_t kBlobVersion = 2;
+/// Of an IMU: a counter that jumps must not make a millisecond a thousand intervals.
+constexpr SimDuration kShortestPeriod{100'000};
+constexpr double kLargestYawSigma = 0.1;  // [rad]
 
 }  // namespace
 
@@ -20,14 +24,27 @@ TwoStateFilter::TwoStateFilter(const RobotParameters& robot, const TwoStateSetti
       filter_(robot, settings.noise, settings.gate, settings.initial.accel_bias,
               settings.iterations),
       accel_gate_(settings.gate.accel_jump_m_per_s2),
-      gyro_gate_(settings.gate.gyro_jump_rad_per_s) {
+      gyro_gate_(settings.gate.gyro_jump_rad_per_s),
+      poses_(settings.pose, settings.initial.yaw) {
+  // The filter is linear in yaw and would wander off in one that may be anywhere; turning about the
+  // vertical changes nothing it measures, so it does not need to know.
+  settings_.initial.yaw = std::min(settings_.initial.yaw, kLargestYawSigma);
   align(SensorFrame{});
 }
 
-void TwoStateFilter::update(const SensorFrame& frame, bool at_rest) noexcept {
-  if (!joints_.empty() && frame.time < joints_.newestTime()) {
-    counts_.add(Rejection::kFrameLate);
-    return;
+bool TwoStateFilter::update(const SensorFrame& frame, bool at_rest) noexcept {
+  switch (order_.judge(frame.time)) {
+    case FrameTime::kNext:
+      break;
+    case FrameTime::kLate:
+      counts_.add(Rejection::kFrameLate);
+      return false;
+    case FrameTime::kAhead:
+      counts_.add(Rejection::kFrameAhead);
+      return false;
+    case FrameTime::kLeap:
+      leapTo(frame.time);
+      break;
   }
   arm_.update(frame);
   if (frame.joint_angle.allFinite()) {
@@ -46,13 +63,22 @@ void TwoStateFilter::update(const SensorFrame& frame, bool at_rest) noexcept {
   }
   if (settings_.use_external_pose && frame.pose_count != pose_count_) {
     pose_count_ = frame.pose_count;
-    if (running_) takePose(frame);
+    if (running_) {
+      poses_.take(frame, time_, filter_, yaw_, counts_);
+    } else if (!released_) {
+      poses_.takeAtRest(frame.pose_W, counts_);
+    }
   }
+  return true;
 }
 
 void TwoStateFilter::takeImu(const SensorFrame& frame) noexcept {
   if (!frame.accel_B.allFinite() || !frame.gyro_WB_B.allFinite()) {
     counts_.add(Rejection::kNotFinite);
+    return;
+  }
+  if (frame.imu_time > frame.time + imu_period_) {
+    counts_.add(Rejection::kImuAhead);
     return;
   }
   if (!running_) {
@@ -64,7 +90,7 @@ void TwoStateFilter::takeImu(const SensorFrame& frame) noexcept {
       if (accel_ok && gyro_ok) align(frame);
     }
     if (!released_) return;
-    release();
+    release(frame);
     if (frame.imu_time <= time_) return;
   }
   if (frame.imu_time <= time_) {
@@ -84,27 +110,43 @@ void TwoStateFilter::align(const SensorFrame& frame) noexcept {
       first_imu_count_ = frame.imu_count;
       first_imu_time_ = frame.imu_time;
     } else if (frame.imu_count > first_imu_count_ && frame.imu_time > first_imu_time_) {
-      imu_period_ = (frame.imu_time - first_imu_time_) / (frame.imu_count - first_imu_count_);
+      imu_period_ =
+          std::max((frame.imu_time - first_imu_time_) / (frame.imu_count - first_imu_count_),
+                   kShortestPeriod);
     }
     alignment_.add(frame.accel_B, frame.gyro_WB_B);
     time_ = frame.imu_time;
   }
-  const InitialEstimate initial = initialEstimate(
-      alignment_, !released_, settings_.initial, settings_.noise, toSeconds(imu_period_), gravity_);
+  InitialEstimate initial = initialEstimate(alignment_, !released_, settings_.initial,
+                                            settings_.noise, toSeconds(imu_period_), gravity_);
+  placeAt(poses_.atRest(), settings_.pose, initial);
+  yaw_ = unwrapped(poses_.atRest().mean()[2], yaw_);
   filter_.initialise(initial.x, initial.information);
 }
 
-void TwoStateFilter::release() noexcept {
+void TwoStateFilter::leapTo(SimTime time) noexcept {
+  if (!running_) return;
+  counts_.add(Rejection::kStateDoubted);
+  filter_.doubt();
+  time_ = time;
+  wheel_angle_known_ = false;
+  followYaw();
+}
+
+void TwoStateFilter::release(const SensorFrame& frame) noexcept {
+  // Where samples were missing before the release, the robot stood.
+  time_ = std::max(time_, frame.imu_time - imu_period_);
   FilterState x = filter_.state();
   const Vector3 ypr = yawPitchRollFromRotation(x.R_WB);
-  x.R_WB = rotationFromYawPitchRoll(0.0, ypr[1] + settings_.initial_tilt_error[0],
-                                    ypr[2] + settings_.initial_tilt_error[1]);
+  x.R_WB =
+      rotationFromYawPitchRoll(poses_.atRest().mean()[2], ypr[1] + settings_.initial_tilt_error[0],
+                               ypr[2] + settings_.initial_tilt_error[1]);
   filter_.initialise(x, filter_.information());
   running_ = true;
   wheel_angle_known_ =
       !joints_.empty() && joints_.oldestTime() <= time_ && time_ <= joints_.newestTime();
   if (wheel_angle_known_) wheel_angle_ = joints_.at(time_).head<kWheelCount>();
-  tellPose();
+  followYaw();
 }
 
 void TwoStateFilter::stepTo(SimTime time, const SensorFrame* imu) noexcept {
@@ -132,40 +174,12 @@ void TwoStateFilter::stepTo(SimTime time, const SensorFrame* imu) noexcept {
 
   filter_.step(m, counts_);
   time_ = time;
-  tellPose();
+  followYaw();
 }
 
-void TwoStateFilter::tellPose() noexcept {
+void TwoStateFilter::followYaw() noexcept {
   yaw_ = unwrapped(yawPitchRollFromRotation(filter_.state().R_WB)[0], yaw_);
-  poses_.add({time_, filter_.state().p_WK_W, yaw_});
-}
-
-void TwoStateFilter::takePose(const SensorFrame& frame) noexcept {
-  if (!frame.pose_W.allFinite()) {
-    counts_.add(Rejection::kNotFinite);
-    return;
-  }
-  const std::optional<PoseHistory::Entry> then = poses_.at(frame.pose_time);
-  if (!then) {
-    counts_.add(Rejection::kPoseLate);
-    return;
-  }
-  const PoseHistory::Entry now{time_, filter_.state().p_WK_W, yaw_};
-  const PoseRows rows = poseRows(filter_.state(), *then, now, frame.pose_W, settings_.pose);
-  if (rows.chiSquare(filter_.covariance()) > settings_.pose.chi_square_limit) {
-    counts_.add(Rejection::kPoseOutlier);
-    if (++poses_refused_ < kPosesUntilBelieved) return;
-    // So many agree against it: the estimate has drifted away further than it knows.
-    const Vector3 up_B = filter_.state().R_WB.transpose() * Vector3::UnitZ();
-    TangentMatrix doubt = TangentMatrix::Zero();
-    doubt.diagonal().segment<2>(kTanPosition).setConstant(1.0);
-    doubt.block<3, 3>(kTanAttitude, kTanAttitude) = up_B * up_B.transpose();
-    filter_.relax(doubt);
-  }
-  poses_refused_ = 0;
-  filter_.addRows(rows.H, rows.y);
-  yaw_ = unwrapped(yawPitchRollFromRotation(filter_.state().R_WB)[0], yaw_);
-  poses_.moveTo({time_, filter_.state().p_WK_W, yaw_});
+  poses_.tell(time_, filter_.state(), yaw_);
 }
 
 StateEstimate TwoStateFilter::estimate(SimTime now) const noexcept {
@@ -173,7 +187,8 @@ StateEstimate TwoStateFilter::estimate(SimTime now) const noexcept {
   StateEstimate out;
   out.time = now;
   out.aligned = alignment_.samples() >= settings_.alignment_samples;
-  out.x = bringForward(x, filter_.acceleration(), yaw_, running_ ? now - time_ : SimDuration{0});
+  const SimDuration ahead = running_ ? std::max(now - time_, SimDuration{0}) : SimDuration{0};
+  out.x = bringForward(x, filter_.acceleration(), yaw_, ahead);
   arm_.writeTo(now, out.x);
 
   // Of the covariance C C' only the diagonal is wanted, for the attitude about the axes of W.
@@ -202,6 +217,7 @@ std::optional<SelfAssessment> TwoStateFilter::selfAssessment() const noexcept {
 
 StateBlob TwoStateFilter::saveState() const {
   BlobWriter out;
+  order_.save(out);
   arm_.save(out);
   joints_.save(out);
   alignment_.save(out);
@@ -216,7 +232,6 @@ StateBlob TwoStateFilter::saveState() const {
   out.put(running_);
   out.put(imu_count_);
   out.put(pose_count_);
-  out.put(poses_refused_);
   out.put(first_imu_count_);
   out.put(toNs(first_imu_time_));
   out.put(toNs(imu_period_));
@@ -228,6 +243,7 @@ StateBlob TwoStateFilter::saveState() const {
 void TwoStateFilter::restoreState(const StateBlob& blob) {
   BlobReader in(blob, kBlobKind, kBlobVersion);
   TwoStateFilter next = *this;  // so that a blob that does not fit leaves no trace
+  next.order_.restore(in);
   next.arm_.restore(in);
   next.joints_.restore(in);
   next.alignment_.restore(in);
@@ -242,7 +258,6 @@ void TwoStateFilter::restoreState(const StateBlob& blob) {
   next.running_ = in.get<bool>();
   next.imu_count_ = in.get<std::int64_t>();
   next.pose_count_ = in.get<std::int64_t>();
-  next.poses_refused_ = in.get<int>();
   next.first_imu_count_ = in.get<std::int64_t>();
   next.first_imu_time_ = simTimeFromNs(in.get<std::int64_t>());
   next.imu_period_ = SimDuration{in.get<std::int64_t>()};

@@ -2,24 +2,27 @@
 
 #include "estimator/arm_sensing.hpp"
 #include "estimator/estimator.hpp"
+#include "estimator/frame_order.hpp"
 #include "estimator/information_filter.hpp"
 #include "estimator/joint_history.hpp"
+#include "estimator/pose_aiding.hpp"
 #include "estimator/two_state_settings.hpp"
 
 namespace ballbot {
 
 /// The estimator of the robot: a two-state implicit filter on the intervals between inertial
 /// samples. Here live time and what can go wrong with it: samples that are late, missing or
-/// spoiled, encoders at another rate, poses from long ago. The equations are in residuals.hpp, the
-/// algebra in information_update.hpp, the judgement in outlier_gate.hpp.
+/// spoiled, frames from another time, encoders at another rate. The equations are in residuals.hpp, the algebra in
+/// information_update.hpp, the judgement in outlier_gate.hpp, poses from outside in pose_aiding.hpp.
 ///
-/// While held (`at_rest`) tilt and gyroscope bias are aligned and px = py = yaw = 0; with the
-/// release the filter starts, and rest has no meaning of its own any more.
+/// While held (`at_rest`) tilt and gyroscope bias are aligned, and px = py = yaw = 0 unless poses
+/// from outside say where the robot stands; with the release the filter starts, and rest has no
+/// meaning of its own any more.
 class TwoStateFilter final : public Estimator {
  public:
   TwoStateFilter(const RobotParameters& robot, const TwoStateSettings& settings);
 
-  void update(const SensorFrame& frame, bool at_rest) noexcept override;
+  bool update(const SensorFrame& frame, bool at_rest) noexcept override;
   StateEstimate estimate(SimTime now) const noexcept override;
   std::optional<SelfAssessment> selfAssessment() const noexcept override;
   RejectionCounts rejections() const noexcept override { return counts_; }
@@ -38,19 +41,20 @@ class TwoStateFilter final : public Estimator {
  private:
   void takeImu(const SensorFrame& frame) noexcept;
   void align(const SensorFrame& frame) noexcept;
-  void release() noexcept;
+  void release(const SensorFrame& frame) noexcept;
+  void leapTo(SimTime time) noexcept;
   void stepTo(SimTime time, const SensorFrame* imu) noexcept;
-  void takePose(const SensorFrame& frame) noexcept;
-  void tellPose() noexcept;
+  void followYaw() noexcept;
 
   TwoStateSettings settings_;
   double gravity_;  ///< [m/s^2]
+  FrameOrder order_;
   ArmSensing arm_;
   JointHistory joints_;
   RestAlignment alignment_;
   InformationFilter filter_;
   SpikeGate accel_gate_, gyro_gate_;
-  PoseHistory poses_;
+  PoseAiding poses_;
   RejectionCounts counts_;
 
   SimTime time_{};         ///< of the filter's state
@@ -58,7 +62,6 @@ class TwoStateFilter final : public Estimator {
   bool released_ = false;  ///< no longer held
   bool running_ = false;   ///< released, and the filter has a state to start from
   std::int64_t imu_count_ = 0, pose_count_ = 0;
-  int poses_refused_ = 0;  ///< in a row
   std::int64_t first_imu_count_ = 0;
   SimTime first_imu_time_{};
   SimDuration imu_period_{2'500'000};      ///< until rest has shown another

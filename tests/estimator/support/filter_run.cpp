@@ -24,7 +24,7 @@ TwoStateSettings matchedSettings() {
 RunErrors play(const FilterRun& run, RejectionCounts* counts) {
   const RobotParameters robot = estimatorTestRobot();
   SimulatedSensors sensors(run.script, robot, run.noise, run.seed);
-  TwoStateFilter filter(robot, run.settings);
+  TwoStateFilter filter(run.believed, run.settings);
   RunErrors e;
   double tilt2 = 0, velocity2 = 0;
   int samples = 0;

@@ -30,6 +30,8 @@ struct FilterRun {
   SensorNoise noise = quantisedNoise();
   TwoStateSettings settings;
   std::uint64_t seed = 1;
+  /// What the filter takes the robot for; the sensors are those of estimatorTestRobot().
+  RobotParameters believed = estimatorTestRobot();
   /// Errors count from here on [s].
   double from = 0.5;
   /// Spoils a frame before the filter sees it.
