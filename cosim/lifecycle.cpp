@@ -99,6 +99,12 @@ void Lifecycle::attempt(Work&& work) {
   }
 }
 
+void Lifecycle::requirePossible(const std::string& when, SimTime time) const {
+  const std::string bad_sensor = firstImpossible(participant_.sensors(), time);
+  if (bad_sensor.empty()) return;
+  throw NumericalError(fmt::format("{}: {}: {}", name(), when, bad_sensor));
+}
+
 void Lifecycle::enterInitializationMode(SimTime start) {
   demand(Call::kEnterInitializationMode);
   attempt([&] { participant_.enterInitializationMode(start); });
@@ -108,7 +114,10 @@ void Lifecycle::enterInitializationMode(SimTime start) {
 
 void Lifecycle::exitInitializationMode() {
   demand(Call::kExitInitializationMode);
-  attempt([&] { participant_.exitInitializationMode(); });
+  attempt([&] {
+    participant_.exitInitializationMode();
+    requirePossible("at the start", time_);
+  });
   state_ = LifecycleState::kStep;
 }
 
@@ -131,11 +140,7 @@ void Lifecycle::doStep(SimTime now, SimDuration step, const ActuatorCommand& com
   }
   attempt([&] {
     participant_.doStep(now, step, command);
-    const std::string bad_sensor = firstNonFinite(participant_.sensors());
-    if (!bad_sensor.empty()) {
-      throw NumericalError(fmt::format("{}: after the step to {}: {}", name(),
-                                       ballbot::toText(now + step), bad_sensor));
-    }
+    requirePossible("after the step to " + ballbot::toText(now + step), now + step);
   });
   time_ = now + step;
 }

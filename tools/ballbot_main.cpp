@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "core/printable_text.hpp"
 #include "tools/commands.hpp"
 
 int main(int argc, char** argv) {
@@ -43,10 +44,10 @@ int main(int argc, char** argv) {
     const int code = program.exit(e);
     return code == 0 ? 0 : static_cast<int>(ExitCode::kBadInput);
   } catch (const Error& e) {
-    std::fprintf(stderr, "ballbot: %s\n", e.what());
+    std::fprintf(stderr, "ballbot: %s\n", printableText(e.what()).c_str());
     return static_cast<int>(e.exitCode());
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "ballbot: unexpected: %s\n", e.what());
+    std::fprintf(stderr, "ballbot: unexpected: %s\n", printableText(e.what()).c_str());
     return static_cast<int>(ExitCode::kOutputFailed);
   }
   return static_cast<int>(result);
