@@ -83,7 +83,7 @@ struct LongReply {
     encodeMessage(reply, bytes);
   }
   static constexpr std::size_t kText = 8 + 29 + 10;  // behind the header, server, status, exit code
-  static constexpr std::size_t kTruth = kText + 4 + 5 + 16 + 324;  // text, times, sensors
+  static constexpr std::size_t kTruth = kText + 4 + 5 + 16 + 320;  // text, times, sensors
   std::size_t chunk() const { return bytes.size() - 5 - 4; }
 
   /// The same with another 4-byte number at `at` and a good checksum.
