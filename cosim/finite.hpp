@@ -3,11 +3,18 @@
 #include <string>
 
 #include "model/signals.hpp"
+#include "model/truth.hpp"
 
 namespace ballbot {
 
 /// Empty if every number is finite, else the first that is not: "torque of wheel 2 is nan".
 std::string firstNonFinite(const ActuatorCommand& command);
-std::string firstNonFinite(const SensorFrame& sensors);
+
+/// Empty if a robot could be so at `now`, else what it cannot be, by name: "motor angle of wheel 2
+/// is 1e+308 rad, beyond 1e+06", "IMU time is 3601 s, at 1 s". Counts are not negative, no time is
+/// ahead of `now` by more than a bench's skipped periods, and no number is so large that only a
+/// fault, or a stranger, can have sent it.
+std::string firstImpossible(const SensorFrame& sensors, SimTime now);
+std::string firstImpossible(const TruthFrame& truth, SimTime now);
 
 }  // namespace ballbot

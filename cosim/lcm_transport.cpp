@@ -18,13 +18,8 @@ LcmAddress privateLcmAddress() {
 }
 
 void requireChannelName(const std::string& channel) {
-  constexpr const char* kAllowed =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
-  constexpr std::size_t kLongest = 48;  // LCM takes 63 characters, with our suffix
-  if (!channel.empty() && channel.size() <= kLongest &&
-      channel.find_first_not_of(kAllowed) == std::string::npos) {
-    return;
-  }
+  constexpr std::size_t kLongest = 48;  // with our suffix it stays below kMaxChannelBytes
+  if (isChannelName(channel) && channel.size() <= kLongest) return;
   throw InputError(fmt::format("LCM channel '{}' must be 1 to {} characters out of A-Z a-z 0-9 _ -",
                                channel, kLongest));
 }
@@ -49,7 +44,7 @@ LcmTransport::~LcmTransport() = default;
 
 void LcmTransport::send(const std::uint8_t* data, std::size_t size) {
   // What the network does not take is lost like any other message: the step protocol asks again.
-  (void)impl_->bus.publish(impl_->send_channel.c_str(), data, size);
+  (void)impl_->bus.publish(impl_->send_channel, data, size);
 }
 
 bool LcmTransport::receive(Bytes& out, WallDuration timeout) {

@@ -25,7 +25,7 @@ LcmAddress sharedLcmAddress();
 /// @throw Error if this machine has no multicast route.
 LcmAddress privateLcmAddress();
 
-/// Names of channels are regular expressions to LCM: letters, digits, '_' and '-' only.
+/// Letters, digits, '_' and '-' only: to LCM's own tools names are regular expressions.
 /// @throw InputError otherwise.
 void requireChannelName(const std::string& channel);
 

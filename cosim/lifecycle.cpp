@@ -99,6 +99,13 @@ void Lifecycle::attempt(Work&& work) {
   }
 }
 
+void Lifecycle::requirePossible(const std::string& when, SimTime time) const {
+  const std::string bad_sensor = firstImpossible(participant_.sensors(), time);
+  if (bad_sensor.empty()) return;
+  // Our own plant finds its NaN before it answers.
+  throw LostParticipantError(name(), fmt::format("{}: {}: {}", name(), when, bad_sensor));
+}
+
 void Lifecycle::enterInitializationMode(SimTime start) {
   demand(Call::kEnterInitializationMode);
   attempt([&] { participant_.enterInitializationMode(start); });
@@ -108,7 +115,10 @@ void Lifecycle::enterInitializationMode(SimTime start) {
 
 void Lifecycle::exitInitializationMode() {
   demand(Call::kExitInitializationMode);
-  attempt([&] { participant_.exitInitializationMode(); });
+  attempt([&] {
+    participant_.exitInitializationMode();
+    requirePossible("at the start", time_);
+  });
   state_ = LifecycleState::kStep;
 }
 
@@ -131,12 +141,7 @@ void Lifecycle::doStep(SimTime now, SimDuration step, const ActuatorCommand& com
   }
   attempt([&] {
     participant_.doStep(now, step, command);
-    const std::string bad_sensor = firstNonFinite(participant_.sensors());
-    if (!bad_sensor.empty()) {
-      // Our own plant finds its NaN before it answers.
-      throw LostParticipantError(name(), fmt::format("{}: after the step to {}: {}", name(),
-                                                     ballbot::toText(now + step), bad_sensor));
-    }
+    requirePossible("after the step to " + ballbot::toText(now + step), now + step);
   });
   time_ = now + step;
 }

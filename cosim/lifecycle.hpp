@@ -21,7 +21,8 @@ enum class LifecycleState : std::uint8_t {
 const char* toText(LifecycleState state);
 
 /// A participant whose contract is enforced: the call order, that steps follow one another without
-/// gap, that commands and results are finite. What is wrapped may rely on it, and whoever calls is
+/// gap, that commands are finite and
+/// results possible. What is wrapped may rely on it, and whoever calls is
 /// told in words what was wrong.
 ///
 ///   call                      allowed in                      leads to
@@ -52,7 +53,8 @@ class Lifecycle final : public Participant {
   void enterInitializationMode(SimTime start) override;
   void exitInitializationMode() override;
   /// @throw CallOrderError also if `now` is not the time reached or `step` is not positive;
-  ///        NumericalError if the command, LostParticipantError if a sensor, is not finite.
+  ///        NumericalError if the command is not finite, LostParticipantError if a sensor value
+  ///        after the step is impossible (cosim/finite.hpp).
   void doStep(SimTime now, SimDuration step, const ActuatorCommand& command) override;
   void terminate() override;
   void reset() override;
@@ -66,6 +68,7 @@ class Lifecycle final : public Participant {
  private:
   enum class Call : std::uint8_t;
   void demand(Call call) const;
+  void requirePossible(const std::string& when, SimTime time) const;
   template <typename Work>
   void attempt(Work&& work);
 

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "cosim/lcm_bus.hpp"
 #include "cosim/lcm_transport.hpp"
+#include "cosim/lcm_url.hpp"
 
 namespace ballbot {
 namespace {
@@ -17,6 +18,9 @@ using std::chrono::microseconds;
 
 // So often the stop flag is looked at when nothing happens.
 constexpr std::chrono::milliseconds kStopInterval{100};
+constexpr int kTakenAtOnce = 64;
+// A lockstep has few messages under way at once; what a stranger sends beyond this is lost.
+constexpr std::size_t kMostHeld = 4096;
 
 /// One direction: takes messages from one network and gives them to the other when they are due.
 class Lane {
@@ -24,15 +28,21 @@ class Lane {
   Lane(LcmBus& from, LcmBus& to, const RelayOptions& options, const char* direction,
        const char* suffix)
       : from_(from), to_(to), disturbance_(options.disturbance, direction) {
-    from_.subscribe((options.channel.empty() ? std::string{".*"} : options.channel) + suffix);
+    options.channel.empty() ? from_.subscribeToEnding(suffix)
+                            : from_.subscribe(options.channel + suffix);
   }
 
-  void takeAll() {
+  // What has come by now, up to a limit: a flood must not keep the other direction waiting.
+  void takeWaiting() {
     const LcmBus::Message* message = nullptr;
-    while (from_.receive(message, WallDuration{})) {
+    for (int i = 0; i < kTakenAtOnce && from_.receive(message, WallDuration{}); ++i) {
       disturbance_.decide(static_cast<std::uint64_t>(counts_.received++), copies_);
       if (copies_.empty()) ++counts_.lost;
       if (copies_.size() > 1) ++counts_.duplicated;
+      if (waiting_.size() + copies_.size() > kMostHeld) {
+        ++counts_.lost;
+        continue;
+      }
       for (const microseconds after : copies_) {
         if (after > microseconds{0}) ++counts_.held_back;
         waiting_.emplace(WallClock::now() + after, *message);
@@ -44,7 +54,7 @@ class Lane {
   WallClock::time_point deliver(WallClock::time_point now) {
     while (!waiting_.empty() && waiting_.begin()->first <= now) {
       const LcmBus::Message& message = waiting_.begin()->second;
-      if (to_.publish(message.channel.c_str(), message.data.data(), message.data.size())) {
+      if (to_.publish(message.channel, message.data.data(), message.data.size())) {
         ++counts_.sent;
       }
       waiting_.erase(waiting_.begin());
@@ -69,11 +79,10 @@ class Lane {
 RelayReport relay(const RelayOptions& options) {
   options.disturbance.check();
   if (!options.channel.empty()) requireChannelName(options.channel);
-  if (udpmNetwork(options.master_url) == udpmNetwork(options.participant_url)) {
-    throw InputError(
-        fmt::format("both sides of the relay are the LCM network {}; give one another "
-                    "port",
-                    udpmNetwork(options.master_url)));
+  const std::string network = LcmUrl::parse(options.master_url).network();
+  if (network == LcmUrl::parse(options.participant_url).network()) {
+    throw InputError(fmt::format(
+        "both sides of the relay are the LCM network {}; give one another port", network));
   }
   LcmBus master(options.master_url);
   LcmBus participant(options.participant_url);
@@ -91,8 +100,8 @@ RelayReport relay(const RelayOptions& options) {
                       {replies.fileDescriptor(), POLLIN, 0}};
     const timespec limit{0, ns};
     if (::ppoll(sides, 2, &limit, nullptr) <= 0) continue;
-    requests.takeAll();
-    replies.takeAll();
+    requests.takeWaiting();
+    replies.takeWaiting();
   }
   return {requests.counts(), replies.counts()};
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "cosim/finite.hpp"
 #include "cosim/session_id.hpp"
 #include "messages/convert.hpp"
 
@@ -50,13 +51,13 @@ void RemoteParticipant::enterInitializationMode(SimTime start) {
     exchange(options_.first_patience, kFirstContactWait);
   }
   reset_pending_ = false;
-  adoptReply();
+  adoptReply(start);
 }
 
 void RemoteParticipant::doStep(SimTime now, SimDuration step, const ActuatorCommand& command) {
   client_->step(now, step, command);
   exchange(options_.patience);
-  adoptReply();
+  adoptReply(now + step);
 }
 
 void RemoteParticipant::terminate() {
@@ -73,16 +74,25 @@ void RemoteParticipant::reset() { reset_pending_ = true; }
 
 StateBlob RemoteParticipant::saveState() const {
   StateBlob blob;
+  std::int32_t whole = 0;
   do {
     client_->save(blob.size());
     exchange(options_.patience);
     const Reply& reply = client_->reply();
-    if (reply.chunk.empty() || reply.blob_offset != static_cast<std::int32_t>(blob.size())) {
-      throw LostParticipantError(options_.name,
-                                 options_.name + " sent no further part of its state");
-    }
+    const bool continues = !reply.chunk.empty() &&
+                           reply.blob_offset == static_cast<std::int32_t>(blob.size()) &&
+                           (blob.empty() || reply.blob_size == whole);
+    whole = reply.blob_size;
     blob.insert(blob.end(), reply.chunk.begin(), reply.chunk.end());
-  } while (static_cast<std::int32_t>(blob.size()) < client_->reply().blob_size);
+    if (!continues || whole > static_cast<std::int32_t>(kMaxStateBytes) ||
+        static_cast<std::int32_t>(blob.size()) > whole) {
+      throw LostParticipantError(
+          options_.name, fmt::format("{} sent {} bytes at {} of {}, no part of its state that "
+                                     "continues the {} before",
+                                     options_.name, reply.chunk.size(), reply.blob_offset, whole,
+                                     blob.size() - reply.chunk.size()));
+    }
+  } while (static_cast<std::int32_t>(blob.size()) < whole);
   return blob;
 }
 
@@ -95,7 +105,11 @@ void RemoteParticipant::restoreState(const StateBlob& blob) {
     client_->restore(blob, sent);
     exchange(options_.patience);
   }
-  adoptReply();
+  const std::int64_t reached = client_->reply().time_ns;
+  if (reached < 0 || reached > toNs(kLatestTime)) {
+    throwUnbelievable(fmt::format("it stands at {} ns", reached));
+  }
+  adoptReply(simTimeFromNs(reached));
 }
 
 RemoteParticipant::LinkStatistics RemoteParticipant::statistics() const {
@@ -157,16 +171,33 @@ bool RemoteParticipant::replyBy(WallClock::time_point until, WallClock::time_poi
   return false;
 }
 
-void RemoteParticipant::adoptReply() {
+// Whoever knows the session may answer, and the far end may be ill: what it says is looked at
+// before an estimator integrates up to it.
+void RemoteParticipant::adoptReply(SimTime expected) {
   const Reply& reply = client_->reply();
+  if (reply.time_ns != toNs(expected)) {
+    throwUnbelievable(
+        fmt::format("it stands at {} ns and was asked for {} ns", reply.time_ns, toNs(expected)));
+  }
   fromMessage(reply.sensors, sensors_);
+  const std::string bad_sensor = firstImpossible(sensors_, expected);
+  if (!bad_sensor.empty()) throwUnbelievable(bad_sensor);
   state_digest_ = static_cast<std::uint64_t>(reply.state_digest);
   if (reply.truth_count == 1) {
     if (!truth_) truth_.emplace();
     fromMessage(reply.truth[0], *truth_);
+    const std::string bad_truth = firstImpossible(*truth_, expected);
+    if (!bad_truth.empty()) throwUnbelievable(bad_truth);
   } else {
     truth_.reset();
   }
+}
+
+void RemoteParticipant::throwUnbelievable(const std::string& what) const {
+  throw NumericalError(fmt::format(
+      "{} answered request {} with what cannot be: {}. It came over {}, where anybody may send; is "
+      "it the {} you started?",
+      options_.name, client_->sequence(), what, transport_.describe(), options_.name));
 }
 
 void RemoteParticipant::throwUnlessOk() const {

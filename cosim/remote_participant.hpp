@@ -34,6 +34,8 @@ struct RemoteOptions {
 /// @throw LostParticipantError nobody answers, or the far end is known to be gone
 /// @throw InputError the far end refused: other version, other configuration, in use by another
 ///        run, or two participants answer
+/// @throw NumericalError a reply says what cannot be: another time than the one asked for, a number
+///        that is not finite or beyond all reason (cosim/finite.hpp)
 class RemoteParticipant final : public Participant {
  public:
   /// `transport` must outlive this.
@@ -65,7 +67,8 @@ class RemoteParticipant final : public Participant {
   void exchange(WallDuration patience,
                 WallDuration longest_wait = RetransmissionTimer::kLongest) const;
   bool replyBy(WallClock::time_point until, WallClock::time_point& now) const;
-  void adoptReply();
+  void adoptReply(SimTime expected);
+  [[noreturn]] void throwUnbelievable(const std::string& what) const;
   void throwUnlessOk() const;
   [[noreturn]] void throwLost(WallDuration waited, int tries) const;
 

@@ -7,6 +7,7 @@
 #include "ballbot_msgs/step_reply.hpp"
 #include "ballbot_msgs/step_request.hpp"
 #include "core/error.hpp"
+#include "core/printable_text.hpp"
 #include "cosim/session_id.hpp"
 #include "cosim/step_server.hpp"
 
@@ -105,7 +106,7 @@ class Host {
   }
 
   void say(const std::string& text) const {
-    if (options_.say) options_.say(name_ + ": " + text);
+    if (options_.say) options_.say(printableText(name_ + ": " + text));
   }
   ServeReport report(ServeEnd end) const { return {end, server_.served(), server_.ignored()}; }
 
@@ -144,7 +145,7 @@ std::optional<std::string> whoServes(Transport& master_end, WallDuration wait) {
     }
     if (!master_end.receive(answer, std::min(ask_again, until) - now)) continue;
     if (!decodeMessage(answer.data(), answer.size(), reply)) continue;
-    if (reply.header.session == probe.header.session) return reply.text;
+    if (reply.header.session == probe.header.session) return printableText(reply.text);
   }
   return std::nullopt;
 }

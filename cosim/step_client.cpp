@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/printable_text.hpp"
 #include "messages/convert.hpp"
 
 namespace ballbot {
@@ -106,6 +107,7 @@ StepClient::Received StepClient::receive(const std::uint8_t* data, std::size_t s
     return Received::kIgnored;
   }
   std::swap(reply_, candidate_);
+  reply_.text = printableText(reply_.text);
   waiting_ = false;
   return Received::kReply;
 }

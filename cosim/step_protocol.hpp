@@ -6,6 +6,7 @@
 
 #include "ballbot_msgs/step_reply.hpp"
 #include "ballbot_msgs/step_request.hpp"
+#include "core/time.hpp"
 
 namespace ballbot {
 
@@ -16,6 +17,11 @@ constexpr std::int32_t kProtocolVersion = 1;
 constexpr std::size_t kChunkBytes = 700;
 /// A saved state may not be larger: 1 MiB.
 constexpr std::size_t kMaxStateBytes = std::size_t{1} << 20;
+/// No step is longer: a calendar's events lie milliseconds apart, and a signal waits for the end of
+/// the step under way.
+constexpr SimDuration kLongestStep{1'000'000'000};
+/// No time that a request speaks of is later: some thirty years, far from where time overflows.
+constexpr SimTime kLatestTime{SimDuration{1'000'000'000'000'000'000}};
 /// Words in a reply are cut here.
 constexpr std::size_t kMaxTextBytes = 400;
 

@@ -132,15 +132,24 @@ const Bytes* StepServer::act(const Header& header) {
 
 void StepServer::perform(std::int8_t kind) {
   const SimTime time = simTimeFromNs(request_.time_ns);
+  if (time < kSimStart || time > kLatestTime) {
+    throw std::logic_error(fmt::format("{} at {}, must be 0 s to {}", requestName(kind),
+                                       toText(time), toText(kLatestTime)));
+  }
   switch (kind) {
     case Header::HELLO:
       if (sequence_ != 1)
         throw std::logic_error("hello within an open session; reset starts again");
       return start(time);
     case Header::STEP: {
+      const SimDuration step{request_.step_ns};
+      if (step > kLongestStep) {
+        throw std::logic_error(fmt::format("a step of {}, at most {} is made at once", toText(step),
+                                           toText(kLongestStep)));
+      }
       ActuatorCommand command;
       fromMessage(request_.command, command);
-      return participant_.doStep(time, SimDuration{request_.step_ns}, command);
+      return participant_.doStep(time, step, command);
     }
     case Header::SAVE:
       return giveChunk();

@@ -41,7 +41,8 @@ ChildProcess::ChildProcess(std::string name, const std::vector<std::string>& arg
   }
   if (pid_ == 0) {
     // Only async-signal-safe calls from here to exec.
-    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    // SIGKILL, since one that is stopped (Ctrl-Z, a debugger) would never come to hear another.
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(3);  // the parent died before prctl took hold
     // Ctrl-C reaches the whole terminal group; the parent tells its children what to do instead.
     ::setpgid(0, 0);

@@ -32,7 +32,81 @@ std::uint64_t readBigEndian(const std::uint8_t* at) noexcept {
   return value;
 }
 
+/// Walks over an encoded message: field by field, or by the count that stands before an array.
+class Walk {
+ public:
+  Walk(const std::uint8_t* data, std::size_t size) noexcept : at_(data), left_(size) {}
+
+  Walk& skip(std::size_t bytes) noexcept {
+    holds_ = holds_ && bytes <= left_;
+    if (!holds_) return *this;
+    at_ += bytes;
+    left_ -= bytes;
+    return *this;
+  }
+  /// A count from `least` on, of elements of so many bytes each.
+  Walk& counted(std::size_t element_bytes, std::int32_t least = 0) noexcept {
+    const std::uint8_t* const count_at = at_;
+    if (!skip(kCountBytes).holds_) return *this;
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < kCountBytes; ++i) bits = bits << 8 | count_at[i];
+    const auto count = static_cast<std::int32_t>(bits);
+    holds_ = count >= least && static_cast<std::size_t>(count) <= left_ / element_bytes;
+    return holds_ ? skip(static_cast<std::size_t>(count) * element_bytes) : *this;
+  }
+  /// A text: its length counts the zero at its end, so it is never 0.
+  Walk& text() noexcept {
+    counted(1, 1);
+    holds_ = holds_ && at_[-1] == 0;
+    return *this;
+  }
+  bool ends() const noexcept { return holds_ && left_ == 0; }
+
+  static constexpr std::size_t kCountBytes = 4;
+
+ private:
+  const std::uint8_t* at_;
+  std::size_t left_;
+  bool holds_ = true;
+};
+
+/// Bytes of a message inside another, where it has no fingerprint.
+template <typename Message>
+std::size_t innerBytes() noexcept {
+  static const auto bytes = static_cast<std::size_t>(Message{}._getEncodedSizeNoHash());
+  return bytes;
+}
+
 }  // namespace
+
+template <>
+bool lengthsHold<ballbot_msgs::step_request>(const std::uint8_t* data, std::size_t size) noexcept {
+  const std::size_t before_chunk =
+      innerBytes<ballbot_msgs::step_request>() - Walk::kCountBytes;  // of one without chunk
+  return Walk(data, size).skip(kFingerprintBytes + before_chunk).counted(1).ends();
+}
+
+template <>
+bool lengthsHold<ballbot_msgs::step_reply>(const std::uint8_t* data, std::size_t size) noexcept {
+  return Walk(data, size)
+      .skip(kFingerprintBytes + innerBytes<ballbot_msgs::step_header>())
+      .skip(8 + 1 + 1)  // server, status, exit_code
+      .text()
+      .skip(8 + 8 + innerBytes<ballbot_msgs::sensor_frame>())  // time, digest
+      .counted(innerBytes<ballbot_msgs::truth_frame>())
+      .skip(4 + 4)  // blob_size, blob_offset
+      .counted(1)   // chunk
+      .ends();
+}
+
+template <>
+bool lengthsHold<ballbot_msgs::tick_digests>(const std::uint8_t* data, std::size_t size) noexcept {
+  return Walk(data, size)
+      .skip(kChecksumEnd + 8 + 8)  // first_tick, first_time_ns
+      .counted(4)
+      .counted(4)
+      .ends();
+}
 
 void sealMessage(Bytes& encoded) {
   if (encoded.size() > kMaxMessageBytes) {

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <vector>
 
 #include "ballbot_msgs/step_header.hpp"
+#include "ballbot_msgs/step_reply.hpp"
+#include "ballbot_msgs/step_request.hpp"
+#include "ballbot_msgs/tick_digests.hpp"
 
 namespace ballbot {
 
@@ -35,20 +37,33 @@ void encodeMessage(const Message& message, Bytes& out) {
   sealMessage(out);
 }
 
+/// Whether `size` bytes are what the lengths and counts written inside them say. The decoders that
+/// lcm-gen writes believe those, and would read and allocate accordingly, so this comes first. A
+/// type without such fields has one size; each of the others has a specialisation, and without one
+/// only its messages with empty fields would be taken.
+template <typename Message>
+bool lengthsHold(const std::uint8_t*, std::size_t size) noexcept {
+  static const auto fixed = static_cast<std::size_t>(Message{}.getEncodedSize());
+  return size == fixed;
+}
+template <>
+bool lengthsHold<ballbot_msgs::step_request>(const std::uint8_t* data, std::size_t size) noexcept;
+template <>
+bool lengthsHold<ballbot_msgs::step_reply>(const std::uint8_t* data, std::size_t size) noexcept;
+template <>
+bool lengthsHold<ballbot_msgs::tick_digests>(const std::uint8_t* data, std::size_t size) noexcept;
+
 /// Decodes bytes whose checksum holds. False, with `out` unspecified, if they are not exactly one
 /// such message.
 template <typename Message>
-bool decodeWhole(const std::uint8_t* data, std::size_t size, Message& out) noexcept {
-  try {
-    return out.decode(data, 0, static_cast<int>(size)) == static_cast<int>(size);
-  } catch (const std::exception&) {
-    return false;  // a length inside that no memory could hold
-  }
+bool decodeWhole(const std::uint8_t* data, std::size_t size, Message& out) {
+  return size <= kMaxMessageBytes && lengthsHold<Message>(data, size) &&
+         out.decode(data, 0, static_cast<int>(size)) == static_cast<int>(size);
 }
 
 /// The same for bytes of which nothing is known yet; false also if they are damaged.
 template <typename Message>
-bool decodeMessage(const std::uint8_t* data, std::size_t size, Message& out) noexcept {
+bool decodeMessage(const std::uint8_t* data, std::size_t size, Message& out) {
   return checksumHolds(data, size) && decodeWhole(data, size, out);
 }
 

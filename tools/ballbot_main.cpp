@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "core/printable_text.hpp"
 #include "tools/commands.hpp"
 #include "tools/number_options.hpp"
 #include "tools/standard_streams.hpp"
@@ -50,15 +51,15 @@ int main(int argc, char** argv) {
     }
     finishStandardOutput();
   } catch (const Error& e) {
-    std::fprintf(stderr, "ballbot: %s\n", e.what());
+    std::fprintf(stderr, "ballbot: %s\n", printableText(e.what()).c_str());
     return static_cast<int>(e.exitCode());
   } catch (const std::exception& e) {
     // Printing throws where stdout takes no more, beside what nobody foresaw.
     try {
       finishStandardOutput();
-      std::fprintf(stderr, "ballbot: unexpected: %s\n", e.what());
+      std::fprintf(stderr, "ballbot: unexpected: %s\n", printableText(e.what()).c_str());
     } catch (const OutputError& lost) {
-      std::fprintf(stderr, "ballbot: %s\n", lost.what());
+      std::fprintf(stderr, "ballbot: %s\n", printableText(lost.what()).c_str());
     }
     return static_cast<int>(ExitCode::kOutputFailed);
   }

@@ -9,7 +9,7 @@
 
 namespace ballbot {
 
-/// Texts that come one after the other, for a browser's EventSource. Called from several threads.
+/// Texts that come one after the other, for a browser's EventSource.
 class EventSource {
  public:
   virtual ~EventSource() = default;
@@ -17,7 +17,10 @@ class EventSource {
   virtual bool next(std::uint64_t& seen, std::string& out, std::chrono::milliseconds timeout) = 0;
 };
 
-/// Serves pages to a browser on this machine, and to nobody else: it listens on 127.0.0.1.
+/// Serves pages to a browser on this machine, and to nobody else: it listens on 127.0.0.1, and
+/// answers only requests that name this machine as their host, so that a page from elsewhere whose
+/// name was made to point here (DNS rebinding) reads nothing. One thread and one poll() for all: no
+/// client, however slow, keeps another or the end waiting.
 class HttpServer {
  public:
   /// @param port  0: any that is free

@@ -1,7 +1,9 @@
 #include "tools/live_feed.hpp"
 
 #include "ballbot_msgs/step_reply.hpp"
-#include "messages/wire.hpp"
+#include "cosim/finite.hpp"
+#include "cosim/step_protocol.hpp"
+#include "messages/convert.hpp"
 
 namespace ballbot {
 namespace {
@@ -35,6 +37,9 @@ void LiveFeed::listen() {
         !decodeMessage(data.data(), data.size(), reply) || reply.truth_count != 1) {
       continue;
     }
+    TruthFrame truth;
+    fromMessage(reply.truth[0], truth);
+    if (!firstImpossible(truth, kLatestTime).empty()) continue;  // nothing that can be drawn
     due = WallTime::now() + kFramePeriod;
     std::string frame = scene_.frame(reply.truth[0]);
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -1,11 +1,7 @@
 #include "tools/machine_checks.hpp"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <poll.h>
 #include <sched.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
@@ -15,56 +11,35 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
+#include "cosim/lcm_bus.hpp"
+#include "cosim/lcm_transport.hpp"
+
 namespace ballbot {
 namespace {
 
 using Level = MachineCheck::Level;
 
-/// A socket that closes itself.
-struct Socket {
-  int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
-  ~Socket() {
-    if (fd >= 0) ::close(fd);
-  }
-};
-
-/// Sends one datagram to a multicast group with ttl 0 and waits for it to come back, as LCM does.
+/// Sends one message and waits for it to come back, over a network as a run uses it.
 MachineCheck multicast() {
-  MachineCheck check{"multicast", Level::kBroken, "", ""};
-  check.mend = "ip link set lo multicast on && ip route add 224.0.0.0/4 dev lo";
-  Socket receiver, sender;
-  const int one = 1;
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_ANY);
-  ::setsockopt(receiver.fd, SOL_SOCKET, SO_REUSEADDR, &one, sizeof one);
-  if (::bind(receiver.fd, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
-    check.found = fmt::format("cannot bind a UDP port: {}", std::strerror(errno));
-    return check;
+  MachineCheck check{"multicast", Level::kBroken, "", kMulticastRemedy};
+  const std::string url = privateLcmAddress().url;
+  try {
+    LcmBus bus(url);
+    bus.subscribe("DOCTOR");
+    const std::uint8_t byte = 'b';
+    const LcmBus::Message* message = nullptr;
+    if (!bus.publish("DOCTOR", &byte, 1)) {
+      check.found = fmt::format("cannot send to {}: {}", url, std::strerror(errno));
+    } else if (!bus.receive(message, std::chrono::milliseconds(500))) {
+      check.found = fmt::format("a message to {} did not come back within 500 ms", url);
+    } else {
+      return {"multicast", Level::kOk, fmt::format("messages to {} come back", url), ""};
+    }
+  } catch (const Error& error) {
+    check.found = error.what();
   }
-  socklen_t size = sizeof address;
-  ::getsockname(receiver.fd, reinterpret_cast<sockaddr*>(&address), &size);
-  ip_mreq group{};
-  group.imr_multiaddr.s_addr = inet_addr("239.255.76.67");
-  group.imr_interface.s_addr = htonl(INADDR_ANY);
-  if (::setsockopt(receiver.fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group) != 0) {
-    check.found = fmt::format("cannot join 239.255.76.67: {}", std::strerror(errno));
-    return check;
-  }
-  const unsigned char ttl = 0;
-  ::setsockopt(sender.fd, IPPROTO_IP, IP_MULTICAST_TTL, &ttl, sizeof ttl);
-  address.sin_addr = group.imr_multiaddr;
-  const char byte = 'b';
-  if (::sendto(sender.fd, &byte, 1, 0, reinterpret_cast<sockaddr*>(&address), sizeof address) != 1) {
-    check.found = fmt::format("cannot send to 239.255.76.67: {}", std::strerror(errno));
-    return check;
-  }
-  pollfd wait{receiver.fd, POLLIN, 0};
-  if (::poll(&wait, 1, 500) != 1) {
-    check.found = "a datagram to 239.255.76.67 did not come back within 500 ms";
-    return check;
-  }
-  return {"multicast", Level::kOk, "datagrams to 239.255.76.67 come back (ttl 0: they stay on this machine)", ""};
+  return check;
 }
 
 MachineCheck receiveBuffer() {

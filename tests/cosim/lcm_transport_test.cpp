@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "cosim/lcm_bus.hpp"
+#include "cosim/lcm_url.hpp"
 #include "cosim/lifecycle.hpp"
 #include "cosim/relay.hpp"
 #include "cosim/remote_participant.hpp"
@@ -72,7 +73,8 @@ TEST(LcmTransport, APortInUseIsNotFree) {
   const LcmAddress address = privateLcmAddress();
   LcmTransport user(address, LinkEnd::kMaster);
   for (int i = 0; i < 300; ++i) {
-    EXPECT_NE("239.255.76.67:" + std::to_string(freeUdpPort()), udpmNetwork(address.url));
+    EXPECT_NE("239.255.76.67:" + std::to_string(freeUdpPort()),
+              LcmUrl::parse(address.url).network());
   }
 }
 
@@ -84,8 +86,10 @@ TEST(LcmTransport, SaysWhatIsWrongWithAnAddress) {
   EXPECT_THAT(open("udpm://239.255.76.67", "A"), HasSubstr("no port"));
   EXPECT_THAT(open("udpm://239.255.76.67:70000", "A"), HasSubstr("the port must be 1 to 65535"));
   EXPECT_THAT(open("udpm://localhost:7667", "A"), HasSubstr("'localhost' is no IPv4 address"));
-  EXPECT_THAT(open("carrier-pigeon://", "A"),
-              HasSubstr("LCM cannot use the URL 'carrier-pigeon://'. Try: udpm://239.255.76.67"));
+  EXPECT_THAT(
+      open("carrier-pigeon://", "A"),
+      HasSubstr("LCM cannot use the URL 'carrier-pigeon://'; it must begin with udpm://. Try: "
+                "udpm://239.255.76.67"));
   EXPECT_THAT(open("", "A"), HasSubstr("LCM cannot use the URL ''"));
   EXPECT_THAT(open(sharedLcmAddress().url, "A.*"), HasSubstr("out of A-Z a-z 0-9 _ -"));
   EXPECT_THAT(open(sharedLcmAddress().url, ""), HasSubstr("must be 1 to 48 characters"));

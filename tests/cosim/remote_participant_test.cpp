@@ -1,8 +1,11 @@
 #include "cosim/remote_participant.hpp"
 
 #include <atomic>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +14,7 @@
 #include "cosim/lifecycle.hpp"
 #include "cosim/memory_transport.hpp"
 #include "cosim/serve.hpp"
+#include "cosim/step_server.hpp"
 #include "tests/cosim/support/spring_participant.hpp"
 #include "tests/cosim/support/spring_run.hpp"
 #include "tests/cosim/support/words.hpp"
@@ -294,6 +298,103 @@ TEST(RetransmissionTimer, FollowsTheRoundTripAndBacksOff) {
   EXPECT_EQ(timer.wait(30), RetransmissionTimer::kLongest);
   for (int i = 0; i < 100; ++i) timer.measured(std::chrono::microseconds{20});
   EXPECT_EQ(timer.wait(0), RetransmissionTimer::kShortest);
+}
+
+/// A far end whose replies to steps are changed on the way, with good checksums.
+class ChangingTransport final : public Transport {
+ public:
+  using Change = std::function<void(ballbot_msgs::step_reply&)>;
+  explicit ChangingTransport(Change change) : change_(std::move(change)) {}
+
+  void send(const std::uint8_t* data, std::size_t size) override {
+    const Bytes* answer = server_.receive(data, size);
+    waiting_ = answer != nullptr;
+    if (!waiting_) return;
+    ballbot_msgs::step_reply reply{};
+    ASSERT_TRUE(decodeMessage(answer->data(), answer->size(), reply));
+    using Header = ballbot_msgs::step_header;
+    if (reply.header.kind == Header::STEP || reply.header.kind == Header::SAVE) change_(reply);
+    encodeMessage(reply, next_);
+  }
+  bool receive(Bytes& out, WallDuration) override {
+    if (!std::exchange(waiting_, false)) return false;
+    out = next_;
+    return true;
+  }
+  std::string describe() const override { return "a test"; }
+
+ private:
+  Change change_;
+  SpringParticipant spring_;
+  StepServer server_{spring_, 1, 9};
+  bool waiting_ = false;
+  Bytes next_;
+};
+
+/// What the master says to a reply to its first step that is changed so.
+std::string wordsOfStep(ChangingTransport::Change change) {
+  ChangingTransport transport(std::move(change));
+  RemoteParticipant remote(transport, remoteOptions());
+  remote.enterInitializationMode(kSimStart);
+  return wordsOf<NumericalError>([&] { remote.doStep(kSimStart, kStepLength, {}); });
+}
+
+TEST(RemoteParticipant, BelievesNoReplyThatCannotBe) {
+  using Reply = ballbot_msgs::step_reply;
+  constexpr std::int64_t kHour = 3'600'000'000'000;
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(wordsOfStep([](Reply& r) { r.time_ns += 1; }),
+              HasSubstr("plant answered request 2 with what cannot be: it stands at 1000001 ns and "
+                        "was asked for 1000000 ns"));
+  EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.sim_time_ns += kHour; }),
+              HasSubstr("joint time is 3600.001000 s, at 0.001000 s"));
+  EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.imu_time_ns += kHour; }),
+              HasSubstr("IMU time is 3600.001000 s, at 0.001000 s"));
+  EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.pose_time_ns = kHour; }),
+              HasSubstr("pose time is 3600.000000 s, at 0.001000 s"));
+  EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.imu_count = -1; }),
+              HasSubstr("IMU count is -1, must be 0 to 1000000000000"));
+  EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.gyro_WB_B[1] = std::nan(""); }),
+              HasSubstr("angular velocity, axis y, is nan"));
+  EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.joint_torque[4] = -kInf; }),
+              HasSubstr("joint torque of arm joint 2 is -inf"));
+  EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.motor_angle[1] = 1e308; }),
+              HasSubstr("motor angle of wheel 2 is 1e+308 rad, beyond 1e+06"));
+  EXPECT_THAT(wordsOfStep([](Reply& r) { r.truth[0].q[3] = std::nan(""); }),
+              HasSubstr("true state, number 4, is nan"));
+  EXPECT_THAT(wordsOfStep([](Reply& r) { r.truth[0].contact_phase = 17; }),
+              HasSubstr("contact phase is 17, must be 0 to 2"));
+}
+
+TEST(RemoteParticipant, CollectsNoStateWithoutEnd) {
+  using Reply = ballbot_msgs::step_reply;
+  const auto wordsOfSave = [](ChangingTransport::Change change) {
+    ChangingTransport transport(std::move(change));
+    RemoteParticipant remote(transport, remoteOptions());
+    remote.enterInitializationMode(kSimStart);
+    return wordsOf<LostParticipantError>([&] { (void)remote.saveState(); });
+  };
+  const auto expected = HasSubstr("no part of its state that continues");
+  EXPECT_THAT(wordsOfSave([](Reply& r) { r.blob_size = std::numeric_limits<int>::max(); }),
+              expected);
+  EXPECT_THAT(wordsOfSave([](Reply& r) { r.blob_size = -1; }), expected);
+  EXPECT_THAT(wordsOfSave([](Reply& r) { r.blob_offset = 5; }), expected);
+  EXPECT_THAT(wordsOfSave([](Reply& r) {
+                r.chunk_size = 0;
+                r.chunk.clear();
+              }),
+              expected);
+}
+
+TEST(RemoteParticipant, PassesNoEscapeSequenceOnToTheTerminal) {
+  ChangingTransport transport([](ballbot_msgs::step_reply& r) {
+    r.status = ballbot_msgs::step_reply::FAILED;
+    r.text = "gone\x1B]0;mine\x07";
+  });
+  RemoteParticipant remote(transport, remoteOptions());
+  remote.enterInitializationMode(kSimStart);
+  EXPECT_EQ(wordsOf<LostParticipantError>([&] { remote.doStep(kSimStart, kStepLength, {}); }),
+            "gone?]0;mine?");
 }
 
 }  // namespace

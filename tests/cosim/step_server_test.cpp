@@ -92,6 +92,24 @@ TEST_F(StepServerTest, ARepeatedRequestGetsTheSameReplyAndIsNotActedOn) {
   EXPECT_EQ(server.resent(), 6);
 }
 
+TEST_F(StepServerTest, MakesNoStepThatNobodyCouldInterrupt) {
+  ask(client.hello(kSimStart));
+  const Reply reply = ask(client.step(kSimStart, SimDuration{20'000'000'000}, {}));
+  EXPECT_EQ(reply.status, Reply::MISUSED);
+  EXPECT_EQ(reply.text, "a step of 20 s, at most 1 s is made at once");
+  EXPECT_EQ(spring.stepsDone(), 0);
+}
+
+TEST_F(StepServerTest, KnowsNoTimeBeforeTheStartOrNearTheEndOfTime) {
+  EXPECT_THAT(ask(client.hello(simTimeFromNs(-1))).text, HasSubstr("hello at"));
+  StepServer fresh(spring, kConfig, 99);
+  const Bytes late = StepClient(7, kConfig).hello(SimTime::max());
+  Reply reply{};
+  const Bytes* bytes = fresh.receive(late.data(), late.size());
+  ASSERT_TRUE(bytes != nullptr && decodeMessage(bytes->data(), bytes->size(), reply));
+  EXPECT_EQ(reply.status, Reply::MISUSED);
+}
+
 TEST_F(StepServerTest, AnOlderRequestIsIgnoredAndCounted) {
   const Bytes hello = client.hello(kSimStart);
   ask(hello);

@@ -39,7 +39,7 @@ set(door_xml_folders model fmi)
 set(door_httplib_headers "httplib.h")
 set(door_httplib_folders tools)
 set(door_lcm_headers "lcm/")
-set(door_lcm_folders cosim)
+set(door_lcm_folders messages)
 set(door_zip_headers "zip.h")
 set(door_zip_folders fmi)
 

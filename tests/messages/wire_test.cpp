@@ -72,6 +72,82 @@ TEST(Wire, BytesThatSayTheyHoldMoreThanMemoryAreRefused) {
   EXPECT_FALSE(decodeMessage(bytes.data(), bytes.size(), back));
 }
 
+/// A full reply, and where its three lengths stand.
+struct LongReply {
+  LongReply() {
+    reply.text = "text";
+    reply.truth_count = 1;
+    reply.truth.resize(1);
+    reply.chunk_size = 5;
+    reply.chunk.resize(5, 7);
+    encodeMessage(reply, bytes);
+  }
+  static constexpr std::size_t kText = 8 + 29 + 10;  // behind the header, server, status, exit code
+  static constexpr std::size_t kTruth = kText + 4 + 5 + 16 + 320;  // text, times, sensors
+  std::size_t chunk() const { return bytes.size() - 5 - 4; }
+
+  /// The same with another 4-byte number at `at` and a good checksum.
+  Bytes with(std::size_t at, std::uint32_t number) const {
+    Bytes out = bytes;
+    for (std::size_t i = 0; i < 4; ++i) {
+      out[at + i] = static_cast<std::uint8_t>(number >> (24 - 8 * i));
+    }
+    sealMessage(out);
+    return out;
+  }
+  ballbot_msgs::step_reply reply{};
+  Bytes bytes;
+};
+
+TEST(Wire, ALengthThatLiesIsRefusedBeforeAnythingIsDecoded) {
+  const LongReply whole;
+  ballbot_msgs::step_reply back{};
+  const auto taken = [&](std::size_t at, std::uint32_t number) {
+    const Bytes bytes = whole.with(at, number);
+    return decodeMessage(bytes.data(), bytes.size(), back);
+  };
+  ASSERT_TRUE(taken(LongReply::kText, 5));
+  ASSERT_TRUE(taken(LongReply::kTruth, 1));
+  ASSERT_TRUE(taken(whole.chunk(), 5));
+  for (const std::uint32_t lie : {0U, 3U, 6U, 300U, 2'000'000U, 0x7FFFFFFFU, 0x80000000U,
+                                  0x80000001U, 0xFFFFFFFEU, 0xFFFFFFFFU}) {
+    EXPECT_FALSE(taken(LongReply::kText, lie)) << lie;
+    EXPECT_FALSE(taken(LongReply::kTruth, lie)) << lie;
+    EXPECT_FALSE(taken(whole.chunk(), lie)) << lie;
+  }
+  EXPECT_LE(back.truth.capacity(), 1U) << "nothing was made room for";
+}
+
+TEST(Wire, ATextWithoutItsZeroIsRefused) {
+  const LongReply whole;
+  Bytes bytes = whole.bytes;
+  bytes[LongReply::kText + 4 + 4] = 'x';
+  sealMessage(bytes);
+  ballbot_msgs::step_reply back{};
+  EXPECT_FALSE(decodeMessage(bytes.data(), bytes.size(), back));
+}
+
+TEST(Wire, TickDigestsWithCountsThatLieAreRefused) {
+  ballbot_msgs::tick_digests digests{};
+  digests.tick_count = 2;
+  digests.offset_ns = {0, 1};
+  digests.hash_count = 12;
+  digests.hash.resize(12);
+  Bytes bytes;
+  encodeMessage(digests, bytes);
+  ballbot_msgs::tick_digests back{};
+  ASSERT_TRUE(decodeMessage(bytes.data(), bytes.size(), back));
+  const std::size_t counts[] = {8 + 24, 8 + 24 + 4 + 8};
+  for (const std::size_t at : counts) {
+    for (const int high : {0x7F, 0x80, 0xFF}) {
+      Bytes lie = bytes;
+      lie[at] = static_cast<std::uint8_t>(high);
+      sealMessage(lie);
+      EXPECT_FALSE(decodeMessage(lie.data(), lie.size(), back));
+    }
+  }
+}
+
 TEST(Wire, TheHeaderIsReadableInRequestsAndRepliesOfAnyVersion) {
   Bytes bytes;
   encodeMessage(exampleRequest(), bytes);
