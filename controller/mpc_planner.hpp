@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "controller/command_governor.hpp"
 #include "controller/contact_supervisor.hpp"
 #include "controller/continuous_engine.hpp"
 #include "controller/frequency_shaping.hpp"
@@ -23,6 +24,7 @@ struct MpcConfig {
   bool contact_forces = false;   ///< the plan has end-effector forces as inputs
   bool contact_moments = false;  ///< and moments
   ContactSupervision contact_supervision;
+  CommandLimits command_limits;
   SimDuration fallback_after = std::chrono::milliseconds(100);  ///< without a good plan
   FrequencyShaping shaping;
   Constraints constraints;
@@ -66,16 +68,21 @@ class MpcPlanner {
   const ContactSupervisor& contact() const noexcept { return supervisor_; }
   void setContact(const ContactSupervisor& supervisor) noexcept { supervisor_ = supervisor; }
 
+  /// What the planner takes of commands that are far away; part of the state to be saved.
+  const CommandGovernor& governor() const noexcept { return governor_; }
+  void setGovernor(const CommandGovernor& governor) noexcept { governor_ = governor; }
+
   double shift() const noexcept { return engine_->shift(); }
   void setShift(double shift) noexcept { engine_->setShift(shift); }
 
  private:
   /// Tells the engine what to count on at the end-effector.
-  ContactReport superviseContact(SimTime now, const StateVector& x) noexcept;
+  ContactReport superviseContact(SimTime now, const Vector3& p_WE) noexcept;
 
   MpcConfig config_;
   ReducedDynamics dynamics_;
   ContactSupervisor supervisor_;
+  CommandGovernor governor_;
   Vector3 contact_force_W_ = Vector3::Zero();
   std::unique_ptr<MpcEngine> engine_;
   MpcPolicy seed_;
