@@ -104,7 +104,7 @@ MpcPolicy ContinuousEngine<NU>::emptyPolicy() const {
 
 template <int NU>
 void ContinuousEngine<NU>::tasksAt(double t) noexcept {
-  schedule_->at(t0_ + t, t0_, tasks_, contact_);
+  schedule_->at(t0_ + t, t0_, tasks_, contact_, commands_);
 }
 
 template <int NU>

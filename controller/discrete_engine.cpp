@@ -28,7 +28,7 @@ MpcPolicy DiscreteEngine<NU>::emptyPolicy() const {
 template <int NU>
 SlqReport DiscreteEngine<NU>::solve(SimTime now, const MpcState& x0, const MpcPolicy& guess,
                                     int iterations, MpcPolicy& out) noexcept {
-  problem_.setTasks(*schedule_, toSeconds(now), contact_);
+  problem_.setTasks(*schedule_, toSeconds(now), contact_, commands_);
 
   // The guess is read by time: no index is shifted, so any period and any grid will do.
   auto& nominal = solver_.nominal();

@@ -22,6 +22,7 @@ class MpcEngine {
 
   /// For the solves that follow.
   void setContact(const ContactSituation& contact) noexcept { contact_ = contact; }
+  void setCommands(const GovernedCommands& commands) noexcept { commands_ = commands; }
 
   virtual void setClock(PhaseClock clock) noexcept = 0;
 
@@ -31,6 +32,7 @@ class MpcEngine {
 
  protected:
   ContactSituation contact_;
+  GovernedCommands commands_;
 };
 
 }  // namespace ballbot

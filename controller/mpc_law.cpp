@@ -6,7 +6,7 @@ namespace ballbot {
 namespace {
 
 constexpr char kBlobKind[] = "mpc_law";
-constexpr std::uint32_t kBlobVersion = 2;
+constexpr std::uint32_t kBlobVersion = 3;
 
 }  // namespace
 
@@ -52,6 +52,7 @@ StateBlob MpcLaw::saveState() const {
   out.put(planner_.shift());
   out.put(failed_plans_);
   planner_.contact().save(out);
+  planner_.governor().save(out);
   out.putBlob(execution_.saveStandIn());
   return out.seal(kBlobKind, kBlobVersion);
 }
@@ -67,6 +68,8 @@ void MpcLaw::restoreState(const StateBlob& blob) {
   const auto failed_plans = in.get<std::int64_t>();
   ContactSupervisor supervisor = planner_.contact();
   supervisor.restore(in);
+  CommandGovernor governor = planner_.governor();
+  governor.restore(in);
   const StateBlob stand_in = in.getBlob();
   in.finish();
   execution_.restore(xf, stand_in);
@@ -75,6 +78,7 @@ void MpcLaw::restoreState(const StateBlob& blob) {
   planner_.setShift(shift);
   failed_plans_ = failed_plans;
   planner_.setContact(supervisor);
+  planner_.setGovernor(governor);
 }
 
 }  // namespace ballbot

@@ -74,6 +74,10 @@ MpcConfig MpcConfig::read(ConfigReader& in, const RobotParameters& robot) {
     ConfigReader supervision = in.child("contact_supervision");
     c.contact_supervision = ContactSupervision::read(supervision);
   }
+  if (in.has("command_limits")) {
+    ConfigReader limits = in.child("command_limits");
+    c.command_limits = CommandLimits::read(limits);
+  }
   c.fallback_after = in.durationOr("fallback_after_ms", c.fallback_after, {1, 1e6});
   if (toSeconds(c.fallback_after) > c.horizon.length) {
     throw InputError(fmt::format("{} is {:g}, which is beyond the end of a plan: at most {:g}, the "
@@ -118,6 +122,7 @@ MpcPlanner::MpcPlanner(const RobotParameters& robot, const MpcConfig& config)
     : config_(config),
       dynamics_(robot),
       supervisor_(config.contact_supervision),
+      governor_(robot, config.command_limits),
       engine_(makeEngine(robot, config)),
       seed_(engine_->emptyPolicy()) {
   const LqrSolution lqr = designLqr(dynamics_, config.lqr.set_point.arm, config.lqr.weights);
@@ -139,12 +144,12 @@ void MpcPlanner::seedFrom(const PolicySample& stand_in, SimTime now, double yaw)
   seed_.setValid(now);
 }
 
-ContactReport MpcPlanner::superviseContact(SimTime now, const StateVector& x) noexcept {
+ContactReport MpcPlanner::superviseContact(SimTime now, const Vector3& p_WE) noexcept {
   ContactReport report;
   if (!config_.contact_forces) return report;
   const TaskSchedule& schedule = *config_.schedule;
   ContactSituation situation;
-  situation.turn = schedule.turnAboutHinge(dynamics_.endEffector(x).p_WE);
+  situation.turn = schedule.turnAboutHinge(p_WE);
   const double t = toSeconds(now - kSimStart), turn = situation.turn;
   Tasks tasks;
   schedule.at(t, t, tasks, situation);
@@ -169,7 +174,11 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
     report.status = PlanStatus::kStateNotFinite;
     return report;
   }
-  report.contact = superviseContact(now, x);
+  const Vector3 p_WE = dynamics_.endEffector(x).p_WE;
+  report.contact = superviseContact(now, p_WE);
+  governor_.update(now, *config_.schedule, x, p_WE);
+  engine_->setCommands(governor_.commands());
+  report.command_cut = governor_.cutting();
   const bool fresh = previous.valid() && now - previous.stamp() <= config_.fallback_after;
   if (!fresh) seedFrom(stand_in, now, x[kYaw]);
   MpcState x0;

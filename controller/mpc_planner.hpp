@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "controller/command_governor.hpp"
 #include "controller/contact_supervisor.hpp"
 #include "controller/continuous_engine.hpp"
 #include "controller/frequency_shaping.hpp"
@@ -24,6 +25,7 @@ struct MpcConfig {
   bool contact_forces = false;   ///< the plan has end-effector forces as inputs
   bool contact_moments = false;  ///< and moments
   ContactSupervision contact_supervision;
+  CommandLimits command_limits;
   SimDuration fallback_after = std::chrono::milliseconds(100);  ///< without a good plan
   FrequencyShaping shaping;
   Constraints constraints;
@@ -67,6 +69,10 @@ class MpcPlanner {
   const ContactSupervisor& contact() const noexcept { return supervisor_; }
   void setContact(const ContactSupervisor& supervisor) noexcept { supervisor_ = supervisor; }
 
+  /// What the planner takes of commands that are far away; part of the state to be saved.
+  const CommandGovernor& governor() const noexcept { return governor_; }
+  void setGovernor(const CommandGovernor& governor) noexcept { governor_ = governor; }
+
   double shift() const noexcept { return engine_->shift(); }
   void setShift(double shift) noexcept { engine_->setShift(shift); }
 
@@ -74,11 +80,12 @@ class MpcPlanner {
   /// A guess where there is no plan: the LQR's policy, its gains those for the engine's steps.
   void seedFrom(const PolicySample& stand_in, SimTime now, double yaw) noexcept;
   /// Tells the engine what to count on at the end-effector.
-  ContactReport superviseContact(SimTime now, const StateVector& x) noexcept;
+  ContactReport superviseContact(SimTime now, const Vector3& p_WE) noexcept;
 
   MpcConfig config_;
   ReducedDynamics dynamics_;
   ContactSupervisor supervisor_;
+  CommandGovernor governor_;
   Vector3 contact_force_W_ = Vector3::Zero();
   std::unique_ptr<MpcEngine> engine_;
   std::vector<FeedbackGain> seed_gains_;  ///< per control of the seed, at zero yaw

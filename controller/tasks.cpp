@@ -93,7 +93,9 @@ TaskSchedule TaskSchedule::read(ConfigReader& in, const RobotParameters& robot) 
   return s;
 }
 
-void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& contact) const {
+void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& contact,
+                      const GovernedCommands& commands) const {
+  const double ahead = t - now;
   const double known = preview ? t : now;
   out.ee_position_weight = ee_position_weight.value(t, known);
   out.ee_orientation_weight = ee_orientation_weight.value(t, known);
@@ -114,15 +116,15 @@ void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& 
     out.contact_moment_weight = contact_moment_weight.value(t, known);
   }
 
-  const Vector3 angles = ee_orientation.value(t, known);
-  out.p_WE = ee_position.value(t, known);
+  const Vector3 angles = commands.ee_orientation.reference(ee_orientation.value(t, known), ahead);
+  out.p_WE = commands.ee_position.reference(ee_position.value(t, known), ahead);
   out.R_WE = rotationFromYawPitchRoll(angles[0], angles[1], angles[2]);
-  out.v_WE_W = ee_position.rate(t);
-  out.w_WE_W = rateFromYawPitchRoll(angles, ee_orientation.rate(t));
-  out.ball_position = ball_position.value(t, known);
-  out.ball_velocity = ball_position.rate(t);
-  out.yaw = yaw.value(t, known)[0];
-  out.arm_position = arm_position.value(t, known);
+  out.v_WE_W = commands.ee_position.rate(ee_position.rate(t));
+  out.w_WE_W = rateFromYawPitchRoll(angles, commands.ee_orientation.rate(ee_orientation.rate(t)));
+  out.ball_position = commands.ball_position.reference(ball_position.value(t, known), ahead);
+  out.ball_velocity = commands.ball_position.rate(ball_position.rate(t));
+  out.yaw = commands.yaw.reference(yaw.value(t, known), ahead)[0];
+  out.arm_position = commands.arm_position.reference(arm_position.value(t, known), ahead);
   out.contact_force_C = contact_force.value(t, known);
   double& normal_force = out.contact_force_C.z();
   normal_force = std::min(normal_force, contact.force_limit) + contact.force_added;

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "controller/governed_command.hpp"
 #include "controller/time_signal.hpp"
 #include "model/reduced_dynamics.hpp"
 
@@ -73,7 +74,9 @@ class TaskSchedule {
   static TaskSchedule read(ConfigReader& in, const RobotParameters& robot);
 
   /// Tasks at time t [s] as known at `now` <= t, see TimeSignal::value. Free of allocation.
-  void at(double t, double now, Tasks& out, const ContactSituation& contact = {}) const;
+  /// @param commands  what a plan that starts at `now` takes of them
+  void at(double t, double now, Tasks& out, const ContactSituation& contact = {},
+          const GovernedCommands& commands = {}) const;
 
   /// How far a door on `contact_hinge` has turned when the end-effector touches it at p_WE, less
   /// than a quarter turn to either side [rad]; 0 without a hinge.

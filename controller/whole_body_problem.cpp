@@ -56,10 +56,11 @@ WholeBodyProblem<NU>::WholeBodyProblem(const RobotParameters& robot, const Const
 
 template <int NU>
 void WholeBodyProblem<NU>::setTasks(const TaskSchedule& schedule, double t0,
-                                    const ContactSituation& contact) noexcept {
+                                    const ContactSituation& contact,
+                                    const GovernedCommands& commands) noexcept {
   double t = t0;
   for (std::size_t k = 0; k < tasks_.size(); ++k) {
-    schedule.at(t, t0, tasks_[k], contact);
+    schedule.at(t, t0, tasks_[k], contact, commands);
     if (k < steps_.size()) t += steps_[k].H;
   }
 }

@@ -32,7 +32,8 @@ class WholeBodyProblem final : public OptimalControlProblem<kMpcStateDim, NU> {
 
   /// Tasks for a horizon that starts at t0 [s]. Free of allocation.
   void setTasks(const TaskSchedule& schedule, double t0,
-                const ContactSituation& contact = {}) noexcept;
+                const ContactSituation& contact = {},
+                const GovernedCommands& commands = {}) noexcept;
   /// For tests and special uses: the tasks of one knot.
   Tasks& tasks(int k) { return tasks_[k]; }
 

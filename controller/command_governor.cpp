@@ -1,0 +1,124 @@
+#include "controller/command_governor.hpp"
+
+#include "core/config_reader.hpp"
+
+namespace ballbot {
+namespace {
+
+/// Stretched to the last, an arm can only be pulled in: what is asked for stays this much below.
+constexpr double kShareOfReach = 0.98;
+
+double reachOf(const RobotParameters& robot) {
+  double reach = robot.p_A3E.norm();
+  for (int i = 1; i < kArmJointCount; ++i) reach += robot.arm[i].p_PJ_P.norm();
+  return reach;
+}
+
+template <int N>
+void bound(GovernedCommand<N>& command, double step, double lead, double speed) {
+  command.step = step;
+  command.lead = lead;
+  command.speed = speed;
+}
+
+template <int N>
+void saveCommand(const GovernedCommand<N>& command, BlobWriter& out) {
+  out.putDoubles(command.anchor.data(), N);
+  out.put(command.approaching);
+}
+
+template <int N>
+void restoreCommand(GovernedCommand<N>& command, BlobReader& in) {
+  in.getDoubles(command.anchor.data(), N);
+  command.approaching = in.get<bool>();
+}
+
+Eigen::Matrix<double, 1, 1> scalar(double value) { return Eigen::Matrix<double, 1, 1>(value); }
+
+}  // namespace
+
+CommandLimits CommandLimits::read(ConfigReader& in) {
+  CommandLimits c;
+  c.step = in.numberOr("step_m", c.step, {kTiny, 1e3});
+  c.lead = in.numberOr("lead_m", c.lead, {kTiny, c.step});
+  c.speed = in.numberOr("speed_m_per_s", c.speed, {kTiny, 100});
+  c.angle_step = in.numberOr("angle_step_rad", c.angle_step, {kTiny, 1e3});
+  c.angle_lead = in.numberOr("angle_lead_rad", c.angle_lead, {kTiny, c.angle_step});
+  c.angle_speed = in.numberOr("angle_speed_rad_per_s", c.angle_speed, {kTiny, 100});
+  c.lag = in.numberOr("lag_m", c.lag, {kTiny, 1e3});
+  c.angle_lag = in.numberOr("angle_lag_rad", c.angle_lag, {kTiny, 1e3});
+  in.finish();
+  return c;
+}
+
+CommandGovernor::CommandGovernor(const RobotParameters& robot, const CommandLimits& limits)
+    : limits_(limits) {
+  bound(commands_.ee_position, limits.step, limits.lead, limits.speed);
+  bound(commands_.ball_position, limits.step, limits.lead, limits.speed);
+  bound(commands_.ee_orientation, limits.angle_step, limits.angle_lead, limits.angle_speed);
+  bound(commands_.yaw, limits.angle_step, limits.angle_lead, limits.angle_speed);
+  bound(commands_.arm_position, limits.angle_step, limits.angle_lead, limits.angle_speed);
+  const double shoulder = robot.ball.radius + robot.arm[0].p_PJ_P.z();
+  const double reach = kShareOfReach * reachOf(robot);
+  commands_.ee_position.lower.z() = shoulder - reach;
+  commands_.ee_position.upper.z() = shoulder + reach;
+  for (int i = 0; i < kArmJointCount; ++i) {
+    commands_.arm_position.lower[i] = robot.arm[i].lower_limit;
+    commands_.arm_position.upper[i] = robot.arm[i].upper_limit;
+  }
+}
+
+void CommandGovernor::update(SimTime now, const TaskSchedule& schedule, const StateVector& x,
+                             const Vector3& p_WE) noexcept {
+  const double t = toSeconds(now - kSimStart);
+  const double seconds = started_ ? toSeconds(now - last_) : 0;
+  Tasks asked;
+  schedule.at(t, t, asked);
+  const Vector3 asked_angles = schedule.ee_orientation.value(t);
+  if (!started_) {
+    commands_.ee_position.anchor = asked.p_WE;
+    commands_.ball_position.anchor = asked.ball_position;
+    commands_.ee_orientation.anchor = asked_angles;
+    commands_.yaw.anchor = scalar(asked.yaw);
+    commands_.arm_position.anchor = asked.arm_position;
+  }
+  commands_.ee_position.follow(asked.p_WE, seconds, p_WE, limits_.lag);
+  commands_.ball_position.follow(asked.ball_position, seconds, x.segment<2>(kBallX), limits_.lag);
+  commands_.yaw.follow(scalar(asked.yaw), seconds, scalar(x[kYaw]), limits_.angle_lag);
+  commands_.arm_position.follow(asked.arm_position, seconds, x.segment<kArmJointCount>(kArm1),
+                                limits_.angle_lag);
+  // An orientation's error counts by a sine and cannot grow without bound; and a roll that the robot
+  // cannot give is asked for all the same.
+  commands_.ee_orientation.follow(asked_angles, seconds, asked_angles, kInf);
+  cutting_ = (!asked.ee_position_weight.isZero(0) && commands_.ee_position.cuts(asked.p_WE)) ||
+             (!asked.ball_position_weight.isZero(0) && commands_.ball_position.cuts(asked.ball_position)) ||
+             (!asked.ee_orientation_weight.isZero(0) && commands_.ee_orientation.cuts(asked_angles)) ||
+             (asked.yaw_weight != 0 && commands_.yaw.cuts(scalar(asked.yaw))) ||
+             (!asked.arm_position_weight.isZero(0) && commands_.arm_position.cuts(asked.arm_position));
+  started_ = true;
+  last_ = now;
+}
+
+void CommandGovernor::save(BlobWriter& out) const {
+  out.put(started_);
+  out.put(cutting_);
+  out.put(toNs(last_));
+  saveCommand(commands_.ee_position, out);
+  saveCommand(commands_.ee_orientation, out);
+  saveCommand(commands_.ball_position, out);
+  saveCommand(commands_.yaw, out);
+  saveCommand(commands_.arm_position, out);
+}
+
+void CommandGovernor::restore(BlobReader& in) {
+  started_ = in.get<bool>();
+  cutting_ = in.get<bool>();
+  last_ = simTimeFromNs(in.get<std::int64_t>());
+  restoreCommand(commands_.ee_position, in);
+  restoreCommand(commands_.ee_orientation, in);
+  restoreCommand(commands_.ball_position, in);
+  restoreCommand(commands_.yaw, in);
+  restoreCommand(commands_.arm_position, in);
+}
+
+}  // namespace ballbot

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "controller/tasks.hpp"
+#include "core/state_blob.hpp"
+#include "core/time.hpp"
+
+namespace ballbot {
+
+/// What of a command is taken at once, and how fast the rest is approached. The defaults leave the
+/// paper's steps alone; a ball that rolls at 0.6 m/s while the base turns leaves the wheels
+/// (12 rad/s: 1.09 m/s without a turn) room to balance.
+struct CommandLimits {
+  double step = 0.5;         ///< of ball and end-effector [m]
+  double lead = 0.15;        ///< [m]
+  double speed = 0.6;        ///< [m/s]
+  double angle_step = 0.8;   ///< of headings, orientations and arm joints [rad]
+  double angle_lead = 0.3;   ///< [rad]
+  double angle_speed = 0.8;  ///< [rad/s]
+  double lag = 0.5;          ///< the anchor is no farther from the robot [m]
+  double angle_lag = 0.8;    ///< ... [rad]
+
+  /// Keys, each optional: step_m, lead_m, speed_m_per_s, angle_step_rad, angle_lead_rad,
+  /// angle_speed_rad_per_s, lag_m, angle_lag_rad.
+  static CommandLimits read(ConfigReader& in);
+};
+
+/// Keeps commands within what the robot can be asked for at one time, so that no command makes it
+/// fall: places far away are approached at a bounded speed from where the robot is, heights beyond
+/// the arm's reach and angles beyond its stops are asked for at the boundary.
+class CommandGovernor {
+ public:
+  CommandGovernor(const RobotParameters& robot, const CommandLimits& limits);
+
+  /// Moves on to `now` and to where the robot is.
+  /// @param p_WE  end-effector [m]
+  void update(SimTime now, const TaskSchedule& schedule, const StateVector& x, const Vector3& p_WE) noexcept;
+
+  /// For a plan that starts at the time of the last update.
+  const GovernedCommands& commands() const noexcept { return commands_; }
+  /// Whether at that time a task with weight is asked for more than its plan takes.
+  bool cutting() const noexcept { return cutting_; }
+
+  void save(BlobWriter& out) const;
+  void restore(BlobReader& in);
+
+ private:
+  CommandLimits limits_;
+  GovernedCommands commands_;
+  bool started_ = false;
+  bool cutting_ = false;
+  SimTime last_{};
+};
+
+}  // namespace ballbot
