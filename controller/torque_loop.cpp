@@ -105,7 +105,7 @@ using WheelLoci = Eigen::Matrix<Complex, kWheelCount, 1>;
 
 /// `loci` in the order that brings each closest to its like in `before`.
 WheelLoci inOrderOf(const WheelLoci& before, const WheelLoci& loci) {
-  std::array<int, kWheelCount> order, best;
+  std::array<int, kWheelCount> order, best{};
   std::iota(order.begin(), order.end(), 0);
   double least = kInf;
   do {

@@ -32,7 +32,8 @@ std::vector<EeStep> EeReference::steps() const {
 PoseVector EeReference::at(SimTime t) const {
   PoseVector pose = PoseVector::Zero();
   if (!schedule) return pose;
-  pose << schedule->ee_position.value(toSeconds(t)), schedule->ee_orientation.value(toSeconds(t));
+  pose.head<3>() = schedule->ee_position.value(toSeconds(t));
+  pose.tail<3>() = schedule->ee_orientation.value(toSeconds(t));
   return pose;
 }
 

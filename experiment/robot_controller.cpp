@@ -73,6 +73,7 @@ void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutpu
   ++plans_;
   if (!report.accepted) ++plans_refused_;
   if (report.fallback) ++plans_on_fallback_;
+  if (report.command_cut) ++plans_cut_;
   out.has_plan = true;
   out.plan.sim_time_ns = toNs(now);
   out.plan.acts_from_ns = toNs(now + plan_latency_);
@@ -138,6 +139,7 @@ StateBlob RobotController::saveState() const {
   out.put(plans_);
   out.put(plans_refused_);
   out.put(plans_on_fallback_);
+  out.put(plans_cut_);
   out.put(ticks_saturated_);
   out.put(ticks_not_finite_);
   out.put(ticks_released_);
@@ -168,6 +170,7 @@ void RobotController::restore(const StateBlob& blob, bool with_law) {
   plans_ = in.get<std::int64_t>();
   plans_refused_ = in.get<std::int64_t>();
   plans_on_fallback_ = in.get<std::int64_t>();
+  plans_cut_ = in.get<std::int64_t>();
   ticks_saturated_ = in.get<std::int64_t>();
   ticks_not_finite_ = in.get<std::int64_t>();
   ticks_released_ = in.get<std::int64_t>();
@@ -182,6 +185,7 @@ std::map<std::string, double> RobotController::counters() const {
   out["plans"] = number(plans_);
   out["plans_refused"] = number(plans_refused_);
   out["plans_on_fallback"] = number(plans_on_fallback_);
+  out["plans_with_cut_commands"] = number(plans_cut_);
   out["ticks_saturated"] = number(ticks_saturated_);
   out["ticks_not_finite"] = number(ticks_not_finite_);
   if (ticks_released_ > 0) {

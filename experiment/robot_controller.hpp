@@ -77,7 +77,7 @@ class RobotController final : public SteppedController {
   bool has_policy_ = false;
   bool plan_now_ = false;  ///< whether or not the planner is due
   SimTime pending_since_{};
-  std::int64_t plans_ = 0, plans_refused_ = 0, plans_on_fallback_ = 0;
+  std::int64_t plans_ = 0, plans_refused_ = 0, plans_on_fallback_ = 0, plans_cut_ = 0;
   std::int64_t ticks_saturated_ = 0, ticks_not_finite_ = 0;
   std::int64_t ticks_released_ = 0, ticks_on_fallback_ = 0;  ///< the second is part of the first
 

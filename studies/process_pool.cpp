@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -148,6 +149,12 @@ class Child {
 };
 
 }  // namespace
+
+int processorCount() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  return ::sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+}
 
 void runInProcesses(std::size_t count, const std::function<std::string(std::size_t)>& task,
                     const PoolOptions& options,

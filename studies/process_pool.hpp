@@ -16,6 +16,9 @@ struct TaskEnd {
   std::string trouble;  ///< how it ended otherwise, in words, with its last words on stderr
 };
 
+/// How many processors this process may use.
+int processorCount();
+
 struct PoolOptions {
   int jobs = 1;                                ///< tasks at once
   std::chrono::milliseconds timeout{600'000};  ///< wall-clock time one task may take

@@ -9,6 +9,7 @@
 #include "experiment/run_record.hpp"
 #include "experiment/text_file.hpp"
 #include "report/json_text.hpp"
+#include "studies/process_pool.hpp"
 #include "tools/commands.hpp"
 #include "tools/interrupt.hpp"
 #include "tools/progress.hpp"
@@ -21,6 +22,7 @@ namespace {
 struct ReproduceArguments {
   std::vector<std::string> only, overrides;
   std::string out = "reproduction", scenarios = "configs/scenarios";
+  int seeds = 1, jobs = 0;
   bool in_process = false, json = false, quiet = false;
 };
 
@@ -40,6 +42,17 @@ std::vector<const PaperExperiment*> chosen(const std::vector<std::string>& only)
   return out;
 }
 
+nlohmann::ordered_json spreadJson(const SeedSpread& spread) {
+  nlohmann::ordered_json j;
+  j["count"] = spread.by_seed.size();
+  j["passed"] = spread.passed();
+  j["missed"] = spread.missed();
+  for (const auto& [name, m] : spread.metrics()) {
+    j["metrics"][name] = {{"least", m.least}, {"median", m.median}, {"largest", m.largest}, {"count", m.count}};
+  }
+  return j;
+}
+
 nlohmann::ordered_json toJson(const std::vector<Scenario>& scenarios, const std::vector<ReproducedExperiment>& done,
                               const std::vector<Comparison>& comparisons, bool passed, const std::string& page) {
   nlohmann::ordered_json j;
@@ -49,6 +62,7 @@ nlohmann::ordered_json toJson(const std::vector<Scenario>& scenarios, const std:
   for (std::size_t i = 0; i < done.size(); ++i) {
     nlohmann::ordered_json entry = summaryJson(scenarios[i], *done[i].result);
     entry["run_folder"] = done[i].result->folder.path();
+    if (!done[i].spread.by_seed.empty()) entry["seeds"] = spreadJson(done[i].spread);
     j["experiments"].push_back(std::move(entry));
   }
   j["comparisons"] = nlohmann::ordered_json::array();
@@ -69,10 +83,42 @@ std::string tableText(const std::vector<ReproducedExperiment>& done, const std::
       out += fmt::format("  {} is {}, must be {}\n", row.metric, row.measured ? fmt::format("{:.4g}", row.value) : "none", row.limit);
     }
   }
+  for (const ReproducedExperiment& e : done) {
+    if (e.spread.by_seed.empty()) continue;
+    out += fmt::format("{}, seeds 1 to {}: {} passed\n", e.experiment->scenario, e.spread.by_seed.size(), e.spread.passed());
+    for (const std::string& line : e.spread.missed()) out += fmt::format("  {}\n", line);
+    const auto metrics = e.spread.metrics();
+    for (const VerdictRow& row : e.result->verdicts) {
+      const auto at = metrics.find(row.metric);
+      if (at == metrics.end()) continue;
+      const MetricRange& m = at->second;
+      out += fmt::format("  {:<32} {:>9.4g} to {:<9.4g} median {:<9.4g} must be {}\n", row.metric, m.least, m.largest, m.median,
+                         row.limit);
+    }
+  }
   for (const Comparison& c : comparisons) {
     out += fmt::format("{}: {}: {}\n", c.passed ? "passed" : "MISSED", c.claim, c.measured);
   }
   return out + fmt::format("page: {}\n", page);
+}
+
+/// One for each experiment, or none where one seed is enough.
+std::vector<SeedSpread> spreads(const ReproduceArguments& a, const std::vector<const PaperExperiment*>& experiments) {
+  if (a.seeds == 1) return std::vector<SeedSpread>(experiments.size());
+  std::vector<std::string> files;
+  for (const PaperExperiment* e : experiments) files.push_back(a.scenarios + "/" + e->scenario + ".yaml");
+  Progress progress("seeds", a.quiet);
+  SeedSpreadOptions options;
+  options.seeds = a.seeds;
+  options.jobs = a.jobs > 0 ? a.jobs : processorCount();
+  options.scratch = a.out + "/seeds";
+  options.stop = interruptFlag();
+  options.progress = [&](std::size_t done, std::size_t count) {
+    progress.update(static_cast<double>(done) / static_cast<double>(count), fmt::format("{} of {} runs", done, count));
+  };
+  std::vector<SeedSpread> out = runSeeds(files, a.overrides, options);
+  progress.finish();
+  return out;
 }
 
 ExitCode reproduce(const ReproduceArguments& a) {
@@ -84,6 +130,9 @@ ExitCode reproduce(const ReproduceArguments& a) {
     scenarios.push_back(loadScenario(a.scenarios + "/" + e->scenario + ".yaml", a.overrides));
     total_s += toSeconds(scenarios.back().duration);
   }
+
+  // Before the first run of its own, which starts threads.
+  std::vector<SeedSpread> spread = spreads(a, experiments);
 
   Progress progress("reproduce", a.quiet);
   std::map<std::string, RunResult> results;
@@ -104,14 +153,16 @@ ExitCode reproduce(const ReproduceArguments& a) {
     done_s += toSeconds(scenario.duration);
     const RunResult& result = at->second;
     done.push_back({experiments[i], &result, reproductionFigure(scenario, result.folder.logFile(), experiments[i]->panels),
-                    scenario.name + "/report.html"});
+                    scenario.name + "/report.html", std::move(spread[i])});
     writeTextFile(a.out + "/" + scenario.name + ".svg", done.back().figure);
   }
   progress.finish();
 
   const std::vector<Comparison> comparisons = compareExperiments(results);
   bool passed = true;
-  for (const ReproducedExperiment& e : done) passed = passed && e.result->passed;
+  for (const ReproducedExperiment& e : done) {
+    passed = passed && e.result->passed && e.spread.passed() == static_cast<int>(e.spread.by_seed.size());
+  }
   for (const Comparison& c : comparisons) passed = passed && c.passed;
   const std::string page = a.out + "/index.html";
   writeTextFile(page, reproductionPage(done, comparisons));
@@ -138,6 +189,10 @@ void addReproduceCommand(CLI::App& program, ExitCode& result) {
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
+  command->add_option("--seeds", a->seeds, "Also run each with seeds 1 to N: how many pass, and how far their numbers spread")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--jobs", a->jobs, "With --seeds: runs at once (default: one per processor)")->check(CLI::Range(1, 4096));
   command->add_flag("--in-process", a->in_process, "Controller and plant in one process; same bits, no LCM");
   command->add_flag("--json", a->json, "Print verdicts and metrics as JSON");
   command->add_flag("--quiet", a->quiet, "No progress on stderr");
@@ -145,6 +200,7 @@ void addReproduceCommand(CLI::App& program, ExitCode& result) {
       "Examples:\n"
       "  ballbot reproduce\n"
       "  ballbot reproduce --only disturbance_ball --only disturbance_ee --out /tmp/pushes --json\n"
+      "  ballbot reproduce --seeds 20 --jobs 2 --json\n"
       "Exit codes: 0 all passed, 1 a requirement was missed, 2 bad input, 3 a participant was lost,\n"
       "4 output could not be written, 130 interrupted.");
   command->callback([&result, a] { result = reproduce(*a); });

@@ -63,6 +63,24 @@ std::string numbersTable(const ReproducedExperiment& e) {
   return out + "</table></div>\n";
 }
 
+/// The same numbers over many seeds.
+std::string spreadTable(const ReproducedExperiment& e) {
+  const SeedSpread& spread = e.spread;
+  if (spread.by_seed.empty()) return "";
+  std::string out = fmt::format("<p>Seeds 1 to {0}: {1} of {0} passed.</p>\n", spread.by_seed.size(), spread.passed());
+  for (const std::string& line : spread.missed()) out += fmt::format("<p class='no'>{}</p>\n", escaped(line));
+  out += "<div class='scroll'><table><tr><th>number</th><th>least</th><th>median</th><th>largest</th><th>limit</th></tr>\n";
+  const auto metrics = spread.metrics();
+  for (const VerdictRow& row : e.result->verdicts) {
+    const auto at = metrics.find(row.metric);
+    if (at == metrics.end()) continue;
+    out += fmt::format("<tr><td>{0}</td><td class='n'>{1}</td><td class='n'>{2}</td><td class='n'>{3}</td><td>{4}</td></tr>\n",
+                       row.metric, number(row.metric, at->second.least), number(row.metric, at->second.median),
+                       number(row.metric, at->second.largest), escaped(row.limit));
+  }
+  return out + "</table></div>\n";
+}
+
 }  // namespace
 
 std::string reproductionPage(const std::vector<ReproducedExperiment>& experiments,
@@ -91,7 +109,7 @@ std::string reproductionPage(const std::vector<ReproducedExperiment>& experiment
     out += fmt::format("<div class='pair'><div><h3>The paper</h3><p>{}</p></div><div><h3>Here: {}</h3><p>{}{}</p></div></div>\n",
                        escaped(e.experiment->paper), verdict(e.result->passed), escaped(e.experiment->here),
                        e.result->fell ? fmt::format(" The robot fell at {:.2f} s.", toSeconds(e.result->end)) : "");
-    out += numbersTable(e);
+    out += numbersTable(e) + spreadTable(e);
     out += fmt::format("<div class='scroll'>{}</div>\n<p><a href='{}'>The run's own report</a>, with a replay in 3-D.</p>\n",
                        e.figure, e.report_link);
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tools/paper_experiments.hpp"
+#include "tools/seed_spread.hpp"
 
 namespace ballbot {
 
@@ -13,6 +14,7 @@ struct ReproducedExperiment {
   const RunResult* result = nullptr;
   std::string figure;       ///< SVG
   std::string report_link;  ///< relative to the page
+  SeedSpread spread;        ///< empty where one seed was enough
 };
 
 /// One page that opens offline: a table of verdicts, then per experiment what the paper shows beside

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sched.h>
 #include <unistd.h>
 
 #include "core/number_text.hpp"
@@ -15,6 +14,7 @@
 #include "experiment/scenario_variants.hpp"
 #include "report/json_text.hpp"
 #include "studies/case_check.hpp"
+#include "studies/process_pool.hpp"
 #include "studies/setting_text.hpp"
 #include "studies/slurm_launcher.hpp"
 #include "studies/study_search.hpp"
@@ -35,12 +35,6 @@ struct StudyArguments {
   bool whole = false, resume = false, retry = false, keep_runs = false, submit_only = false,
        json = false, quiet = false;
 };
-
-int processors() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  return ::sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
-}
 
 /// --set: for all cases, and part of what the study is.
 void addOverride(Study& study, const std::string& text) {
@@ -109,7 +103,7 @@ std::unique_ptr<CaseLauncher> makeLauncher(const StudyArguments& a, const Study&
   LocalLauncher::Options options;
   options.results_file = folder.resultsFolder() + "/local.jsonl";
   options.cases_folder = folder.file("cases");
-  options.jobs = a.jobs > 0 ? a.jobs : processors();
+  options.jobs = a.jobs > 0 ? a.jobs : processorCount();
   options.timeout_s = study.timeout_s;
   options.keep_runs = a.keep_runs;
   options.stop = interruptFlag();
@@ -184,7 +178,7 @@ ExitCode runStudy(const StudyArguments& a) {
   removeScratch(folder);
   findings.wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  findings.jobs = a.launcher == "local" ? (a.jobs > 0 ? a.jobs : processors()) : 0;
+  findings.jobs = a.launcher == "local" ? (a.jobs > 0 ? a.jobs : processorCount()) : 0;
   writeStudyOutput(study, engine, folder, findings);
   if (a.json) {
     fmt::print("{}\n", jsonText(studySummary(study, engine, folder, findings)));

@@ -43,5 +43,41 @@ TEST(Reproduce, WritesOnePageWithPicturesVerdictsAndLinks) {
   EXPECT_THAT(page, Not(HasSubstr("nan")));
 }
 
+/// Two seeds of one experiment, shortened: how many pass, and the spread of every number.
+TEST(Reproduce, TellsHowManySeedsPassAndHowFarTheirNumbersSpread) {
+  const TemporaryFolder folder;
+  const Finished run = runBallbot({"reproduce", "--only", "disturbance_ball", "--seeds", "3", "--jobs", "2", "--in-process",
+                                   "--quiet", "--json", "--scenarios", kScenarios, "--out", folder / "out", "--set",
+                                   "duration_s=2", "--set", "plant.fidelity.multibody=reduced_wheels", "--set",
+                                   "requirements={largest_tilt_deg: {below: 20}}"}, 300);
+  const auto json = nlohmann::json::parse(run.out, nullptr, false);
+  ASSERT_FALSE(json.is_discarded()) << run.err;
+  EXPECT_EQ(run.exit_code, 0) << run.out;
+  const auto& experiment = json["experiments"][0];
+  const auto& seeds = experiment["seeds"];
+  EXPECT_EQ(seeds["count"], 3);
+  EXPECT_EQ(seeds["passed"], 3);
+  const auto& tilt = seeds["metrics"]["largest_tilt_deg"];
+  EXPECT_EQ(tilt["count"], 3);
+  EXPECT_LT(tilt["least"].get<double>(), tilt["median"].get<double>());
+  EXPECT_LT(tilt["median"].get<double>(), tilt["largest"].get<double>());
+  const double own = experiment["metrics"]["largest_tilt_deg"].get<double>();  // seed 1, among them
+  EXPECT_GE(own, tilt["least"].get<double>());
+  EXPECT_LE(own, tilt["largest"].get<double>());
+  EXPECT_FALSE(std::filesystem::exists((folder / "out") + "/seeds"));
+  EXPECT_THAT(readFile(json["page"].get<std::string>()), HasSubstr("Seeds 1 to 3: 3 of 3 passed"));
+}
+
+TEST(Reproduce, SaysWhichSeedsMissedWhatAndFails) {
+  const TemporaryFolder folder;
+  const Finished run = runBallbot({"reproduce", "--only", "disturbance_ball", "--seeds", "2", "--in-process", "--quiet",
+                                   "--scenarios", kScenarios, "--out", folder / "out", "--set", "duration_s=1", "--set",
+                                   "plant.fidelity.multibody=reduced_wheels", "--set",
+                                   "requirements={largest_tilt_deg: {below: 0.1}}"}, 300);
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("disturbance_ball, seeds 1 to 2: 0 passed"));
+  EXPECT_THAT(run.out, HasSubstr("seed 2: largest_tilt_deg is "));
+}
+
 }  // namespace
 }  // namespace ballbot

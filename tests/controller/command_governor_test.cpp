@@ -1,0 +1,112 @@
+#include "controller/command_governor.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/model/robot_fixture.hpp"
+
+namespace ballbot {
+namespace {
+
+SimTime at(double seconds) { return kSimStart + durationFromSeconds(seconds); }
+
+class CommandGovernorTest : public ::testing::Test {
+ protected:
+  CommandGovernorTest() : robot_(exampleRobot()), schedule_(robot_), governor_(robot_, limits_) {
+    schedule_.ball_position_weight = TimedWeight<2>(Eigen::Vector2d::Constant(100));
+  }
+
+  /// The governor every 14 ms up to `until`, for a robot that is where it was asked to be.
+  void followUntil(double until) {
+    for (; t_ < until; t_ += 0.014) {
+      governor_.update(at(t_), schedule_, x_, schedule_.ee_position.value(t_));
+      x_.segment<2>(kBallX) = governor_.commands().ball_position.anchor;
+    }
+  }
+  Eigen::Vector2d reference(double ahead) const {
+    return governor_.commands().ball_position.reference(schedule_.ball_position.value(t_), ahead);
+  }
+
+  RobotParameters robot_;
+  TaskSchedule schedule_;
+  CommandLimits limits_;
+  CommandGovernor governor_;
+  StateVector x_ = StateVector::Zero();
+  double t_ = 0;
+};
+
+TEST_F(CommandGovernorTest, TakesAStepWithinReachAsItIs) {
+  schedule_.ball_position.step(0.1, {0.3, -0.3999});
+  followUntil(0.12);
+  EXPECT_EQ(reference(0), Eigen::Vector2d(0.3, -0.3999));
+  EXPECT_EQ(reference(1), Eigen::Vector2d(0.3, -0.3999));
+  EXPECT_FALSE(governor_.cutting());
+}
+
+TEST_F(CommandGovernorTest, ApproachesAFarStepAtItsSpeedAndArrivesExactly) {
+  const Eigen::Vector2d goal(3, 4);
+  schedule_.ball_position.step(0.1, goal);
+  followUntil(0.12);
+  EXPECT_TRUE(governor_.cutting());
+  EXPECT_LE(reference(0).norm(), limits_.lead + limits_.speed * 0.03);
+  EXPECT_NEAR((reference(1) - reference(0)).norm(), limits_.speed, 1e-12);
+  EXPECT_NEAR(reference(1).normalized().dot(goal.normalized()), 1, 1e-12);  // straight ahead
+
+  double last = reference(0).norm();
+  for (double t = 0.2; t < 8; t += 0.014) {
+    followUntil(t);
+    const double now = reference(0).norm();
+    EXPECT_LE(now - last, limits_.speed * 0.028 + 1e-9) << t;  // no jump on the way or at the end
+    last = now;
+  }
+  followUntil(9);
+  EXPECT_EQ(reference(0), goal);
+  EXPECT_FALSE(governor_.cutting());
+}
+
+TEST_F(CommandGovernorTest, StaysNearARobotThatIsHeldBack) {
+  schedule_.ball_position.step(0.1, {5, 0});
+  for (; t_ < 4; t_ += 0.014) governor_.update(at(t_), schedule_, x_, Vector3::Zero());
+  EXPECT_LE(reference(0).norm(), limits_.lag + limits_.lead);
+}
+
+TEST_F(CommandGovernorTest, RatesOfPlannedMotionsAreCutToTheSpeed) {
+  schedule_.ball_position.ramp(0, 2, {6, 0});
+  Tasks tasks;
+  followUntil(0.5);
+  schedule_.at(t_ + 0.2, t_, tasks, {}, governor_.commands());
+  EXPECT_NEAR(tasks.ball_velocity.x(), limits_.speed, 1e-12);
+  EXPECT_LT(tasks.ball_position.x(), 1);
+}
+
+TEST_F(CommandGovernorTest, HeightsBeyondTheArmAndAnglesBeyondStopsAreAskedForAtTheBoundary) {
+  schedule_.arm_position.step(0, {0, 9, -9});
+  schedule_.ee_position.step(0, {0, 0, 50});
+  followUntil(0.01);
+  const GovernedCommands& commands = governor_.commands();
+  EXPECT_LT(commands.ee_position.upper.z(), 1.4);
+  EXPECT_GT(commands.ee_position.upper.z(), 1.2);
+  EXPECT_LE(commands.ee_position.reference({0, 0, 50}, 100).z(), commands.ee_position.upper.z());
+  const Vector3 arm = commands.arm_position.reference({0, 9, -9}, 100);
+  EXPECT_LE(arm[1], robot_.arm[1].upper_limit);
+  EXPECT_GE(arm[2], robot_.arm[2].lower_limit);
+}
+
+TEST_F(CommandGovernorTest, ContinuesAfterASaveAsIfNothingWas) {
+  schedule_.ball_position.step(0.1, {3, 4});
+  followUntil(1);
+  BlobWriter out;
+  governor_.save(out);
+  const StateBlob blob = out.seal("test", 1);
+  CommandGovernor other(robot_, limits_);
+  BlobReader in(blob, "test", 1);
+  other.restore(in);
+  in.finish();
+  governor_.update(at(1.1), schedule_, x_, Vector3::Zero());
+  other.update(at(1.1), schedule_, x_, Vector3::Zero());
+  EXPECT_EQ(governor_.commands().ball_position.anchor, other.commands().ball_position.anchor);
+  EXPECT_EQ(governor_.commands().ball_position.approaching, other.commands().ball_position.approaching);
+  EXPECT_EQ(governor_.cutting(), other.cutting());
+}
+
+}  // namespace
+}  // namespace ballbot
