@@ -33,7 +33,12 @@ Case randomCase(std::uint64_t seed) {
   c.a.accel_bias = draw(0.05);
   c.a.gyro_bias = draw(0.01);
   TangentVector step;
-  step << draw(1e-2).head<2>(), draw(5e-2), draw(1e-2).head<2>(), draw(0.1), draw(0.01), draw(0.01);
+  step.segment<2>(0) = draw(1e-2).head<2>();
+  step.segment<3>(2) = draw(5e-2);
+  step.segment<2>(5) = draw(1e-2).head<2>();
+  step.segment<3>(7) = draw(0.1);
+  step.segment<3>(10) = draw(0.01);
+  step.segment<3>(13) = draw(0.01);
   c.b = c.a.plus(step);
   c.m.h = 2.5e-3;
   c.m.has_accel = c.m.has_gyro = true;
