@@ -147,7 +147,7 @@ TEST(ChildProcess, OfAKilledRunDiesEvenWhereItIsStopped) {
 TEST(LcmUrls, ThatMeanNothingAreRefusedByEveryVerb) {
   const std::string url = "udpm://239.255.76.67:7667?ttl=";
   const std::string scenario = scenarioPath("balance");
-  for (const std::string& verb : {"plant", "controller", "run"}) {
+  for (const char* verb : {"plant", "controller", "run"}) {
     const Finished end = runBallbot({verb, scenario, "--lcm-url", url + "-1"});
     EXPECT_EQ(end.exit_code, 2);
     EXPECT_THAT(end.err, HasSubstr("ttl is '-1', must be a whole number from 0 to 255")) << verb;
