@@ -47,6 +47,8 @@ class TreeBuilder final : public YAML::EventHandler {
                 const std::string& value) override {
     checkPlain(mark, anchor, tag);
     if (atKey()) {
+      // In quotes it is a word like any other.
+      if (value == "<<" && tag != "!") refuse(mark, "a merge key ('<<') is not read; write include: FILE");
       takeKey(mark, value);
     } else {
       // yaml-cpp gives the tag "!" to quoted scalars and "?" to plain ones.
@@ -86,7 +88,6 @@ class TreeBuilder final : public YAML::EventHandler {
            !open_.back().key;
   }
   void takeKey(const YAML::Mark& mark, const std::string& key) {
-    if (key == "<<") refuse(mark, "a merge key ('<<') is not read; write include: FILE");
     if (open_.back().node.find(key)) {
       refuse(mark, fmt::format("key '{}' stands twice in this mapping; keep one", key));
     }

@@ -2,13 +2,13 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 
 namespace ballbot {
 
@@ -23,15 +23,7 @@ std::string readTextFile(const std::string& path) {
 }
 
 void writeTextFile(const std::string& path, const std::string& text) {
-  const std::string half = path + ".part";
-  std::ofstream out(half, std::ios::binary | std::ios::trunc);
-  out << text;
-  out.close();
-  std::error_code failed;
-  if (out) std::filesystem::rename(half, path, failed);
-  if (!out || failed) {
-    const int reason = failed ? failed.value() : errno;
-    std::filesystem::remove(half, failed);
+  if (const int reason = writeWholeFile(path, text)) {
     throw OutputError(fmt::format("{}: cannot be written: {}. Is there room, and may this user write here?",
                                   path, std::strerror(reason)));
   }

@@ -1,11 +1,9 @@
 #include "report/write_report.hpp"
 
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <fstream>
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "report/json_text.hpp"
 #include "report/page_template.hpp"
 #include "report/report_check.hpp"
@@ -68,17 +66,9 @@ std::string reportPage(const ReportData& data, const std::string& urdf_text,
 
 void writeReport(const ReportData& data, const std::string& urdf_text, const std::string& path,
                  const ReportSize& size) {
-  const std::string page = reportPage(data, urdf_text, size);
-  errno = 0;
-  const std::string half = path + ".part";
-  std::ofstream file(half, std::ios::binary | std::ios::trunc);
-  file << page;
-  file.close();
-  if (file && std::rename(half.c_str(), path.c_str()) == 0) return;
-  const int reason = errno;
-  std::remove(half.c_str());
-  throw OutputError(path + ": the report cannot be written: " +
-                    (reason != 0 ? std::strerror(reason) : "unknown reason"));
+  if (const int reason = writeWholeFile(path, reportPage(data, urdf_text, size))) {
+    throw OutputError(path + ": the report cannot be written: " + std::strerror(reason));
+  }
 }
 
 }  // namespace ballbot

@@ -146,14 +146,14 @@ TEST(RemoteParticipant, ARefusalIsAnInputErrorInTheWordsOfTheFarEnd) {
               HasSubstr("spring runs configuration 0000000000000002, its master 0000000000000001"));
 }
 
-TEST(RemoteParticipant, AFailureFarAwayIsALostParticipantAndTheFarEndIsReleased) {
+TEST(RemoteParticipant, AFailureFarAwayIsThatFailureHereAndTheFarEndIsReleased) {
   ServedSpring served;
   {
     RemoteParticipant remote(*served.master_end, remoteOptions());
     remote.enterInitializationMode(kSimStart);
     served.spring.failAt(kSimStart + 2 * kStepLength);
     remote.doStep(kSimStart, kStepLength, {});
-    EXPECT_EQ(wordsOf<LostParticipantError>(
+    EXPECT_EQ(wordsOf<InputError>(
                   [&] { remote.doStep(kSimStart + kStepLength, kStepLength, {}); }),
               "spring: broke at 0.002000 s");
   }

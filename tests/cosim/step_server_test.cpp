@@ -216,7 +216,7 @@ TEST_F(StepServerTest, AFailureOfTheParticipantIsAReplyInWordsAndComesOnceMoreWh
   spring.failAt(kSimStart + kStepLength);
   const Reply reply = stepOf(client);
   EXPECT_EQ(reply.status, Reply::FAILED);
-  EXPECT_EQ(reply.exit_code, static_cast<int>(ExitCode::kLostParticipant));
+  EXPECT_EQ(reply.exit_code, static_cast<int>(ExitCode::kBadInput));
   EXPECT_EQ(reply.text, "spring: broke at 0.001000 s");
   EXPECT_EQ(ask(client.pending()).text, reply.text);
 }
