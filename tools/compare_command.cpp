@@ -35,7 +35,8 @@ nlohmann::ordered_json toJson(const RunComparison& c) {
 }
 
 ExitCode compareFolders(const CompareArguments& arguments) {
-  const RunComparison c = compareRuns(RunFolder::open(arguments.a), RunFolder::open(arguments.b));
+  const RunFolder a = RunFolder::open(arguments.a), b = RunFolder::open(arguments.b);
+  const RunComparison c = compareRuns(a, b);
   if (arguments.json) {
     fmt::print("{}\n", jsonText(toJson(c)));
   } else {
