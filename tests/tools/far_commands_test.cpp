@@ -1,3 +1,5 @@
+#include <ostream>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +16,8 @@ struct FarCommand {
   const char* task;
   const char* reference;
 };
+
+void PrintTo(const FarCommand& far, std::ostream* out) { *out << far.name; }
 
 /// One thing asked for that is far beyond what the robot can do at once.
 class FarCommands : public ::testing::TestWithParam<FarCommand> {};
