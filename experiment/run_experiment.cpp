@@ -87,6 +87,26 @@ std::vector<std::string> checkBeside(const RobotController& controller, const Sc
   return known;
 }
 
+PlantLink::Options linkOptions(const RunOptions& options, int core) {
+  PlantLink::Options link;
+  link.in_process = options.in_process;
+  link.shared = options.live;
+  link.address = {options.lcm_url, options.channel};
+  link.core = core;
+  link.patience = options.patience;
+  link.stop = options.stop;
+  return link;
+}
+
+/// A run passes if it ended as it should, planned, and met every requirement.
+bool passes(const RunResult& result, const std::vector<MetricLimit>& requirements) {
+  if (result.no_plan_acted) return false;
+  for (const VerdictRow& row : result.verdicts) {
+    if (!row.passed) return false;
+  }
+  return result.fell ? askForFall(requirements) : result.completed;
+}
+
 /// Saves, kills the plant, starts another and continues, between two events.
 void replacePlant(StepMaster& master, PlantLink& plant) {
   const StateBlob saved = master.save().toBlob();
@@ -122,14 +142,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out,
 
   const int core = options.pin && !options.in_process ? preferredCore() : -1;
   if (core >= 0) pinToCore(core);
-  PlantLink::Options link;
-  link.in_process = options.in_process;
-  link.shared = options.live;
-  link.address = {options.lcm_url, options.channel};
-  link.core = core;
-  link.patience = options.patience;
-  link.stop = options.stop;
-  PlantLink plant(scenario, folder, link);
+  PlantLink plant(scenario, folder, linkOptions(options, core));
 
   const auto planned_plans =
       static_cast<std::size_t>(scenario.duration / scenario.rates.planner) + 1;
@@ -180,9 +193,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out,
   result.verdicts = judge(scenario.requirements, result.metrics, known_metrics);
   const auto fallback = result.metrics.find(kFallbackPercent);
   result.no_plan_acted = fallback != result.metrics.end() && fallback->second == 100;
-  result.passed = result.fell ? askForFall(scenario.requirements) : result.completed;
-  result.passed = result.passed && !result.no_plan_acted;
-  for (const VerdictRow& row : result.verdicts) result.passed = result.passed && row.passed;
+  result.passed = passes(result, scenario.requirements);
 
   writeSummary(scenario, result, folder);
   writeTiming(result, plant.statistics(), controller.planTimes(), recorder.bytesWritten(), folder);
