@@ -14,22 +14,22 @@ double reachOf(const RobotParameters& robot) {
   return reach;
 }
 
-template <int N>
-void bound(GovernedCommand<N>& command, double step, double lead, double speed) {
+template <typename Command>
+void bound(Command& command, double step, double lead, double speed) {
   command.step = step;
   command.lead = lead;
   command.speed = speed;
 }
 
-template <int N>
-void saveCommand(const GovernedCommand<N>& command, BlobWriter& out) {
-  out.putDoubles(command.anchor.data(), N);
+template <typename Command>
+void saveCommand(const Command& command, BlobWriter& out) {
+  out.putDoubles(command.anchor.data(), command.anchor.size());
   out.put(command.approaching);
 }
 
-template <int N>
-void restoreCommand(GovernedCommand<N>& command, BlobReader& in) {
-  in.getDoubles(command.anchor.data(), N);
+template <typename Command>
+void restoreCommand(Command& command, BlobReader& in) {
+  in.getDoubles(command.anchor.data(), command.anchor.size());
   command.approaching = in.get<bool>();
 }
 
@@ -42,6 +42,7 @@ CommandLimits CommandLimits::read(ConfigReader& in) {
   c.step = in.numberOr("step_m", c.step, {kTiny, 1e3});
   c.lead = in.numberOr("lead_m", c.lead, {kTiny, c.step});
   c.speed = in.numberOr("speed_m_per_s", c.speed, {kTiny, 100});
+  c.ee_speed = in.numberOr("ee_speed_m_per_s", c.ee_speed, {kTiny, 100});
   c.angle_step = in.numberOr("angle_step_rad", c.angle_step, {kTiny, 1e3});
   c.angle_lead = in.numberOr("angle_lead_rad", c.angle_lead, {kTiny, c.angle_step});
   c.angle_speed = in.numberOr("angle_speed_rad_per_s", c.angle_speed, {kTiny, 100});
@@ -53,7 +54,7 @@ CommandLimits CommandLimits::read(ConfigReader& in) {
 
 CommandGovernor::CommandGovernor(const RobotParameters& robot, const CommandLimits& limits)
     : limits_(limits) {
-  bound(commands_.ee_position, limits.step, limits.lead, limits.speed);
+  bound(commands_.ee_position, limits.step, limits.lead, limits.ee_speed);
   bound(commands_.ball_position, limits.step, limits.lead, limits.speed);
   bound(commands_.ee_orientation, limits.angle_step, limits.angle_lead, limits.angle_speed);
   bound(commands_.yaw, limits.angle_step, limits.angle_lead, limits.angle_speed);
@@ -69,30 +70,27 @@ CommandGovernor::CommandGovernor(const RobotParameters& robot, const CommandLimi
 }
 
 void CommandGovernor::update(SimTime now, const TaskSchedule& schedule, const StateVector& x,
-                             const Vector3& p_WE) noexcept {
+                             const ReducedDynamics::EndEffector& tip) noexcept {
   const double t = toSeconds(now - kSimStart);
   const double seconds = started_ ? toSeconds(now - last_) : 0;
   Tasks asked;
   schedule.at(t, t, asked);
-  const Vector3 asked_angles = schedule.ee_orientation.value(t);
   if (!started_) {
     commands_.ee_position.anchor = asked.p_WE;
     commands_.ball_position.anchor = asked.ball_position;
-    commands_.ee_orientation.anchor = asked_angles;
+    commands_.ee_orientation.anchor = asked.R_WE;
     commands_.yaw.anchor = scalar(asked.yaw);
     commands_.arm_position.anchor = asked.arm_position;
   }
-  commands_.ee_position.follow(asked.p_WE, seconds, p_WE, limits_.lag);
+  commands_.ee_position.follow(asked.p_WE, seconds, tip.p_WE, limits_.lag);
   commands_.ball_position.follow(asked.ball_position, seconds, x.segment<2>(kBallX), limits_.lag);
   commands_.yaw.follow(scalar(asked.yaw), seconds, scalar(x[kYaw]), limits_.angle_lag);
   commands_.arm_position.follow(asked.arm_position, seconds, x.segment<kArmJointCount>(kArm1),
                                 limits_.angle_lag);
-  // An orientation's error counts by a sine and cannot grow without bound; and a roll that the robot
-  // cannot give is asked for all the same.
-  commands_.ee_orientation.follow(asked_angles, seconds, asked_angles, kInf);
+  commands_.ee_orientation.follow(asked.R_WE, seconds, tip.R_WE, limits_.angle_lag);
   cutting_ = (!asked.ee_position_weight.isZero(0) && commands_.ee_position.cuts(asked.p_WE)) ||
              (!asked.ball_position_weight.isZero(0) && commands_.ball_position.cuts(asked.ball_position)) ||
-             (!asked.ee_orientation_weight.isZero(0) && commands_.ee_orientation.cuts(asked_angles)) ||
+             (!asked.ee_orientation_weight.isZero(0) && commands_.ee_orientation.cuts(asked.R_WE)) ||
              (asked.yaw_weight != 0 && commands_.yaw.cuts(scalar(asked.yaw))) ||
              (!asked.arm_position_weight.isZero(0) && commands_.arm_position.cuts(asked.arm_position));
   started_ = true;

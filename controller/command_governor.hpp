@@ -8,18 +8,20 @@ namespace ballbot {
 
 /// What of a command is taken at once, and how fast the rest is approached. The defaults leave the
 /// paper's steps alone; a ball that rolls at 0.6 m/s while the base turns leaves the wheels
-/// (12 rad/s: 1.09 m/s without a turn) room to balance.
+/// (12 rad/s: 1.09 m/s without a turn) room to balance. An end-effector moves slower, for a ball that is free to follow it
+/// overtakes it where the arm has to be drawn in.
 struct CommandLimits {
   double step = 0.5;         ///< of ball and end-effector [m]
-  double lead = 0.15;        ///< [m]
-  double speed = 0.6;        ///< [m/s]
+  double lead = 0.02;        ///< [m]
+  double speed = 0.6;        ///< of the ball [m/s]
+  double ee_speed = 0.4;     ///< of the end-effector [m/s]
   double angle_step = 0.8;   ///< of headings, orientations and arm joints [rad]
-  double angle_lead = 0.3;   ///< [rad]
-  double angle_speed = 0.8;  ///< [rad/s]
+  double angle_lead = 0.05;  ///< [rad]
+  double angle_speed = 0.6;  ///< [rad/s]
   double lag = 0.5;          ///< the anchor is no farther from the robot [m]
   double angle_lag = 0.8;    ///< ... [rad]
 
-  /// Keys, each optional: step_m, lead_m, speed_m_per_s, angle_step_rad, angle_lead_rad,
+  /// Keys, each optional: step_m, lead_m, speed_m_per_s, ee_speed_m_per_s, angle_step_rad, angle_lead_rad,
   /// angle_speed_rad_per_s, lag_m, angle_lag_rad.
   static CommandLimits read(ConfigReader& in);
 };
@@ -32,8 +34,8 @@ class CommandGovernor {
   CommandGovernor(const RobotParameters& robot, const CommandLimits& limits);
 
   /// Moves on to `now` and to where the robot is.
-  /// @param p_WE  end-effector [m]
-  void update(SimTime now, const TaskSchedule& schedule, const StateVector& x, const Vector3& p_WE) noexcept;
+  void update(SimTime now, const TaskSchedule& schedule, const StateVector& x,
+              const ReducedDynamics::EndEffector& tip) noexcept;
 
   /// For a plan that starts at the time of the last update.
   const GovernedCommands& commands() const noexcept { return commands_; }

@@ -6,6 +6,8 @@
 namespace ballbot {
 namespace {
 
+constexpr double kWheelRateShare = 0.7;
+
 void readBarrier(ConfigReader& in, RelaxedBarrier& barrier) {
   barrier.mu = in.numberOr("mu", barrier.mu, {0, 1e6});
   barrier.delta = in.numberOr("delta", barrier.delta, {1e-6, 1e6});
@@ -13,7 +15,8 @@ void readBarrier(ConfigReader& in, RelaxedBarrier& barrier) {
 
 }  // namespace
 
-Constraints::Constraints(const RobotParameters& robot) {
+Constraints::Constraints(const RobotParameters& robot)
+    : wheel_rate_limit(kWheelRateShare * robot.wheel_speed_limit) {
   torque_limit << Vector3::Constant(robot.wheel_torque_limit),
       Vector3::Constant(robot.arm_torque_limit);
   for (int i = 0; i < kArmJointCount; ++i) {
@@ -46,6 +49,13 @@ Constraints Constraints::read(ConfigReader& in, const RobotParameters& robot) {
     ConfigReader rate = in.child("arm_rate_limits");
     readBarrier(rate, c.arm_rate);
     c.arm_rate_limit = rate.numberOr("limit_rad_per_s", c.arm_rate_limit, {0.1, 100});
+    rate.finish();
+  }
+  if (in.has("wheel_rate_limits")) {
+    ConfigReader rate = in.child("wheel_rate_limits");
+    readBarrier(rate, c.wheel_rate);
+    c.wheel_rate_limit =
+        robot.wheel_speed_limit * rate.numberOr("share_of_limit", kWheelRateShare, {0.1, 1});
     rate.finish();
   }
   if (in.has("tilt_limit")) {

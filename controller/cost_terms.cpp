@@ -21,6 +21,7 @@ const char* costTermName(CostTerm term) {
     case kFrictionConeCost: return "friction_cone";
     case kArmPositionLimitCost: return "arm_position_limits";
     case kArmRateLimitCost: return "arm_rate_limits";
+    case kWheelRateLimitCost: return "wheel_rate_limits";
     case kTiltLimitCost: return "tilt_limit";
     case kTerminalCost: return "terminal";
     case kCostTermCount: break;

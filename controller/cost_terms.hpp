@@ -25,6 +25,7 @@ enum CostTerm : int {
   kFrictionConeCost,
   kArmPositionLimitCost,
   kArmRateLimitCost,
+  kWheelRateLimitCost,
   kTiltLimitCost,
   kTerminalCost,
   kCostTermCount

@@ -15,12 +15,13 @@ Vector cutTo(double length, const Vector& v) {
 }
 
 /// What a plan takes of a command c(t), relative to an anchor a that moves toward it at `speed`. A
-/// command within `step` of the anchor is taken as it is, to the last bit: a step the robot can make.
-/// One farther away is approached instead, without a jump and at that speed,
+/// command within `step` of the anchor is taken as it is, to the last bit: a step the robot can
+/// make. One farther away is approached instead, without a jump and at that speed,
 ///
 ///   r(t) = a + cut(c(t) - a, lead + speed (t - now)),
 ///
-/// until the anchor is there. Both after c was cut to [lower, upper]. By default nothing is bounded.
+/// until the anchor is there. Both after c was cut to [lower, upper]. By default nothing is
+/// bounded.
 template <int N>
 struct GovernedCommand {
   using Vector = Eigen::Matrix<double, N, 1>;
@@ -41,8 +42,13 @@ struct GovernedCommand {
     const double bound = (approaching ? lead : step) + speed * std::max(ahead, 0.0);
     return way.norm() > bound ? Vector(anchor + cutTo(bound, way)) : reachable;
   }
-  /// The command's rate of change.
-  Vector rate(const Vector& asked_rate) const { return cutTo(speed, asked_rate); }
+  /// The reference's rate of change, where the command's is `asked_rate`.
+  Vector rate(const Vector& asked, const Vector& asked_rate, double ahead) const {
+    if (step == kUnbounded) return asked_rate;
+    const Vector way = withinBox(asked) - anchor;
+    const double bound = (approaching ? lead : step) + speed * std::max(ahead, 0.0);
+    return way.norm() > bound ? Vector(speed / way.norm() * way) : cutTo(speed, asked_rate);
+  }
 
   bool cuts(const Vector& asked) const { return reference(asked, 0) != asked; }
   /// Moves the anchor on by `seconds`, and keeps it within `lag` of where the robot is.
@@ -57,15 +63,6 @@ struct GovernedCommand {
 
  private:
   Vector withinBox(const Vector& v) const { return v.cwiseMax(lower).cwiseMin(upper); }
-};
-
-/// Every command of a task, as the plan of one instant takes it.
-struct GovernedCommands {
-  GovernedCommand<3> ee_position;     ///< [m]
-  GovernedCommand<3> ee_orientation;  ///< yaw, pitch, roll [rad]
-  GovernedCommand<2> ball_position;   ///< [m]
-  GovernedCommand<1> yaw;             ///< [rad]
-  GovernedCommand<3> arm_position;    ///< [rad]
 };
 
 }  // namespace ballbot

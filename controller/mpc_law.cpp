@@ -6,7 +6,7 @@ namespace ballbot {
 namespace {
 
 constexpr char kBlobKind[] = "mpc_law";
-constexpr std::uint32_t kBlobVersion = 3;
+constexpr std::uint32_t kBlobVersion = 4;
 
 }  // namespace
 

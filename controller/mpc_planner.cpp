@@ -174,9 +174,9 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
     report.status = PlanStatus::kStateNotFinite;
     return report;
   }
-  const Vector3 p_WE = dynamics_.endEffector(x).p_WE;
-  report.contact = superviseContact(now, p_WE);
-  governor_.update(now, *config_.schedule, x, p_WE);
+  const ReducedDynamics::EndEffector tip = dynamics_.endEffector(x);
+  report.contact = superviseContact(now, tip.p_WE);
+  governor_.update(now, *config_.schedule, x, tip);
   engine_->setCommands(governor_.commands());
   report.command_cut = governor_.cutting();
   const bool fresh = previous.valid() && now - previous.stamp() <= config_.fallback_after;

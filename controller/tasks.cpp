@@ -116,13 +116,16 @@ void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& 
     out.contact_moment_weight = contact_moment_weight.value(t, known);
   }
 
-  const Vector3 angles = commands.ee_orientation.reference(ee_orientation.value(t, known), ahead);
-  out.p_WE = commands.ee_position.reference(ee_position.value(t, known), ahead);
-  out.R_WE = rotationFromYawPitchRoll(angles[0], angles[1], angles[2]);
-  out.v_WE_W = commands.ee_position.rate(ee_position.rate(t));
-  out.w_WE_W = rateFromYawPitchRoll(angles, commands.ee_orientation.rate(ee_orientation.rate(t)));
-  out.ball_position = commands.ball_position.reference(ball_position.value(t, known), ahead);
-  out.ball_velocity = commands.ball_position.rate(ball_position.rate(t));
+  const Vector3 angles = ee_orientation.value(t, known), p_WE = ee_position.value(t, known);
+  const Matrix3 R_WE = rotationFromYawPitchRoll(angles[0], angles[1], angles[2]);
+  const Eigen::Vector2d ball = ball_position.value(t, known);
+  out.p_WE = commands.ee_position.reference(p_WE, ahead);
+  out.R_WE = commands.ee_orientation.reference(R_WE, ahead);
+  out.v_WE_W = commands.ee_position.rate(p_WE, ee_position.rate(t), ahead);
+  out.w_WE_W = commands.ee_orientation.rate(
+      R_WE, rateFromYawPitchRoll(angles, ee_orientation.rate(t)), ahead);
+  out.ball_position = commands.ball_position.reference(ball, ahead);
+  out.ball_velocity = commands.ball_position.rate(ball, ball_position.rate(t), ahead);
   out.yaw = commands.yaw.reference(yaw.value(t, known), ahead)[0];
   out.arm_position = commands.arm_position.reference(arm_position.value(t, known), ahead);
   out.contact_force_C = contact_force.value(t, known);

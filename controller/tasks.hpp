@@ -3,7 +3,7 @@
 #include <limits>
 #include <optional>
 
-#include "controller/governed_command.hpp"
+#include "controller/governed_commands.hpp"
 #include "controller/time_signal.hpp"
 #include "model/reduced_dynamics.hpp"
 

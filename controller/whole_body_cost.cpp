@@ -87,13 +87,17 @@ OrientationError orientationError(const Matrix3& R_desired, const Matrix3& R) {
 WholeBodyCost::WholeBodyCost(const RobotParameters& robot, const Constraints& constraints,
                              const TerminalCost& terminal)
     : dynamics_(robot),
+      ball_radius_(robot.ball.radius),
+      ratio_(robot.ball.radius / robot.wheels.radius),
       constraints_(constraints),
       terminal_(terminal),
       lqr_value_(terminal.kind == TerminalCost::Kind::kLqr
                      ? std::make_shared<const LqrTerminalCost>(robot, terminal)
                      : nullptr),
       sin_tilt_limit_(std::sin(constraints.tilt_limit)),
-      cos_tilt_limit_(std::cos(constraints.tilt_limit)) {}
+      cos_tilt_limit_(std::cos(constraints.tilt_limit)) {
+  for (int i = 0; i < kWheelCount; ++i) axles_.row(i) = robot.wheelAxle(i).transpose();
+}
 
 template <bool kExpand>
 void WholeBodyCost::endEffectorCost(const ReducedDynamics::EndEffector& tip,
@@ -193,6 +197,53 @@ void WholeBodyCost::armLimitCost(const StateVector& x, double share, CostTerms& 
 }
 
 template <bool kExpand>
+void WholeBodyCost::wheelRateLimitCost(const StateVector& x, double share, CostTerms& terms,
+                                       StateExpansion* out) const {
+  // phi_dot_i = -rho d_i . (R^T k - w) with k = (-vy, vx, 0) / r the ball's angular velocity in W.
+  const double cz = std::cos(x[kYaw]), sz = std::sin(x[kYaw]);
+  const double cy = std::cos(x[kPitch]), sy = std::sin(x[kPitch]);
+  const double cx = std::cos(x[kRoll]), sx = std::sin(x[kRoll]);
+  Matrix3 R_BW;
+  R_BW << cz * cy, sz * cy, -sy,  //
+      cz * sy * sx - sz * cx, sz * sy * sx + cz * cx, cy * sx,  //
+      cz * sy * cx + sz * sx, sz * sy * cx - cz * sx, cy * cx;
+  constexpr int kNu = kPositionDim;
+  const double kx = -x[kNu + kBallVy] / ball_radius_, ky = x[kNu + kBallVx] / ball_radius_;
+  const Vector3 kappa_B = R_BW.col(0) * kx + R_BW.col(1) * ky;
+  const Matrix3 scaled = ratio_ * axles_;
+  const Vector3 rates = scaled * (x.segment<3>(kNu + kOmegaX) - kappa_B);
+
+  BarrierSum limits(constraints_.wheel_rate);
+  const double limit = constraints_.wheel_rate_limit;
+  Vector3 first, second;
+  for (int i = 0; i < kWheelCount; ++i) {
+    const TwoSided d = addTwoSided(limits, limit + rates[i], limit - rates[i], terms);
+    first[i] = d.first;
+    second[i] = d.second;
+  }
+  terms.value[kWheelRateLimitCost] += share * limits.value();
+  if constexpr (kExpand) {
+    // d(R^T k) = R^T (k x a) for a turn about a: z, then the axis of pitch, then x of B.
+    Eigen::Matrix<double, 3, 8> J;
+    J.col(0) = R_BW.col(0) * ky - R_BW.col(1) * kx;
+    const double along = kx * cz + ky * sz;  // k x (-sz, cz, 0) is vertical
+    J.col(1) = R_BW.col(2) * along;
+    J.col(2) = kappa_B.cross(Vector3::UnitX());
+    J.col(3) = R_BW.col(1) / ball_radius_;
+    J.col(4) = -R_BW.col(0) / ball_radius_;
+    J.rightCols<3>() = -Matrix3::Identity();
+    J = -scaled * J;
+    constexpr int kIndex[8] = {kYaw,          kPitch,         kRoll,         kNu + kBallVx,
+                               kNu + kBallVy, kNu + kOmegaX, kNu + kOmegaY, kNu + kOmegaZ};
+    const Eigen::Matrix<double, 3, 8> weighted = (share * second).asDiagonal() * J;
+    for (int c = 0; c < 8; ++c) {
+      out->g(kIndex[c]) += share * first.dot(J.col(c));
+      for (int r = c; r < 8; ++r) out->H(kIndex[r], kIndex[c]) += weighted.col(c).dot(J.col(r));
+    }
+  }
+}
+
+template <bool kExpand>
 void WholeBodyCost::tiltLimitCost(const StateVector& x, double share, CostTerms& terms,
                                   StateExpansion* out) const {
   // h = (cos tilt - cos limit) / sin limit: the margin in rad near the limit, smooth upright.
@@ -221,6 +272,7 @@ void WholeBodyCost::stateCost(const StateVector& x, const ReducedDynamics::EndEf
   endEffectorCost<kExpand>(tip, by_x, tasks, share, terms, out);
   coordinateCost<kExpand>(x, tasks, share, terms, out);
   armLimitCost<kExpand>(x, share, terms, out);
+  wheelRateLimitCost<kExpand>(x, share, terms, out);
   tiltLimitCost<kExpand>(x, share, terms, out);
 }
 

@@ -73,6 +73,9 @@ class WholeBodyCost {
   void armLimitCost(const StateVector& x, double share, CostTerms& terms,
                     StateExpansion* out) const;
   template <bool kExpand>
+  void wheelRateLimitCost(const StateVector& x, double share, CostTerms& terms,
+                          StateExpansion* out) const;
+  template <bool kExpand>
   void tiltLimitCost(const StateVector& x, double share, CostTerms& terms,
                      StateExpansion* out) const;
   template <bool kExpand>
@@ -87,6 +90,8 @@ class WholeBodyCost {
                  InputExpansion* out) const;
 
   ReducedDynamics dynamics_;
+  Matrix3 axles_;          ///< rows d_i
+  double ball_radius_, ratio_;  ///< r [m], r / r_w
   Constraints constraints_;
   TerminalCost terminal_;
   std::shared_ptr<const LqrTerminalCost> lqr_value_;  ///< null unless the terminal cost is it

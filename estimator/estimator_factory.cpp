@@ -16,7 +16,7 @@ constexpr const char* kOnlyComplementary[] = {"velocity_bandwidth_rad_per_s",
                                               "gyro_bias_time_constant_s",
                                               "velocity_innovation_limit_m_per_s"};
 constexpr const char* kOnlyTwoState[] = {"iterations", "imu_wait_ms", "noise", "initial",
-                                         "gate", "external_pose", "initial_tilt_error_deg"};
+                                         "gate", "balance", "external_pose", "initial_tilt_error_deg"};
 
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace ballbot {
 namespace {
 
 constexpr const char* kBlobKind = "two_state_filter";
-constexpr std::uint32_t kBlobVersion = 2;
+constexpr std::uint32_t kBlobVersion = 3;
 /// Of an IMU: a counter that jumps must not make a millisecond a thousand intervals.
 constexpr SimDuration kShortestPeriod{100'000};
 constexpr double kLargestYawSigma = 0.1;  // [rad]
@@ -25,7 +25,8 @@ TwoStateFilter::TwoStateFilter(const RobotParameters& robot, const TwoStateSetti
               settings.iterations),
       accel_gate_(settings.gate.accel_jump_m_per_s2),
       gyro_gate_(settings.gate.gyro_jump_rad_per_s),
-      poses_(settings.pose, settings.initial.yaw) {
+      poses_(settings.pose, settings.initial.yaw),
+      balance_(robot, settings.balance) {
   // The filter is linear in yaw and would wander off in one that may be anywhere; turning about the
   // vertical changes nothing it measures, so it does not need to know.
   settings_.initial.yaw = std::min(settings_.initial.yaw, kLargestYawSigma);
@@ -130,6 +131,7 @@ void TwoStateFilter::leapTo(SimTime time) noexcept {
   filter_.doubt();
   time_ = time;
   wheel_angle_known_ = false;
+  balance_.interrupt();
   followYaw();
 }
 
@@ -174,6 +176,11 @@ void TwoStateFilter::stepTo(SimTime time, const SensorFrame* imu) noexcept {
 
   filter_.step(m, counts_);
   time_ = time;
+  if (m.has_gyro && known) {
+    balance_.step(m.h, time, joints_, filter_);
+  } else {
+    balance_.interrupt();
+  }
   followYaw();
 }
 
@@ -225,6 +232,7 @@ StateBlob TwoStateFilter::saveState() const {
   accel_gate_.save(out);
   gyro_gate_.save(out);
   poses_.save(out);
+  balance_.save(out);
   counts_.save(out);
   out.put(toNs(time_));
   out.put(yaw_);
@@ -251,6 +259,7 @@ void TwoStateFilter::restoreState(const StateBlob& blob) {
   next.accel_gate_.restore(in);
   next.gyro_gate_.restore(in);
   next.poses_.restore(in);
+  next.balance_.restore(in);
   next.counts_.restore(in);
   next.time_ = simTimeFromNs(in.get<std::int64_t>());
   next.yaw_ = in.get<double>();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimator/arm_sensing.hpp"
+#include "estimator/balance_aiding.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/frame_order.hpp"
 #include "estimator/information_filter.hpp"
@@ -55,6 +56,7 @@ class TwoStateFilter final : public Estimator {
   InformationFilter filter_;
   SpikeGate accel_gate_, gyro_gate_;
   PoseAiding poses_;
+  BalanceAiding balance_;
   RejectionCounts counts_;
 
   SimTime time_{};         ///< of the filter's state

@@ -53,6 +53,15 @@ void readPose(ConfigReader in, ExternalPoseSettings& p) {
   in.finish();
 }
 
+void readBalance(ConfigReader in, BalanceSettings& b) {
+  b.enabled = in.booleanOr("enabled", b.enabled);
+  b.momentum_sigma = in.numberOr("momentum_kg_m2_per_s", b.momentum_sigma, {1e-4, 100});
+  b.moment_sigma = in.numberOr("moment_Nm", b.moment_sigma, {1e-3, 100});
+  b.window_s = in.numberOr("window_s", b.window_s, {0.01, 10});
+  b.push_chi_square = in.numberOr("push_chi_square", b.push_chi_square, {2, 1e12});
+  in.finish();
+}
+
 }  // namespace
 
 TwoStateSettings TwoStateSettings::read(ConfigReader& in) {
@@ -60,6 +69,7 @@ TwoStateSettings TwoStateSettings::read(ConfigReader& in) {
   if (in.has("noise")) readNoise(in.child("noise"), s.noise);
   if (in.has("initial")) readInitial(in.child("initial"), s.initial);
   if (in.has("gate")) readGate(in.child("gate"), s.gate);
+  if (in.has("balance")) readBalance(in.child("balance"), s.balance);
   s.use_external_pose = in.has("external_pose");
   if (s.use_external_pose) readPose(in.child("external_pose"), s.pose);
   s.iterations = in.integerOr("iterations", s.iterations, {2, 10});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimator/balance_aiding.hpp"
 #include "estimator/external_pose.hpp"
 #include "estimator/initial_state.hpp"
 #include "estimator/outlier_gate.hpp"
@@ -14,6 +15,7 @@ struct TwoStateSettings {
   InitialUncertainty initial;
   GateSettings gate;
   ExternalPoseSettings pose;
+  BalanceSettings balance;
   bool use_external_pose = false;
   int iterations = 2;
   double arm_rate_time_constant_s = 0.002;

@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 
+#include "model/limits.hpp"
 #include "model/state.hpp"
 
 namespace ballbot {
@@ -63,6 +64,7 @@ struct RobotParameters {
   Vector3 nominal_arm = Vector3::Zero();  ///< arm pose to start from and to balance about [rad]
   double wheel_torque_limit = 0;          ///< what traction allows [N m]
   double arm_torque_limit = 0;            ///< [N m]
+  double wheel_speed_limit = kUnlimited;  ///< of a wheel relative to the base, by its drive [rad/s]
 
   /// Direction of contact i from K, in B (unit).
   Vector3 contactDirection(int i) const;

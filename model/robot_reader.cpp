@@ -109,7 +109,11 @@ RobotParameters readRobot(ConfigReader& in) {
   robot.wheel_torque_limit = torqueLimit("wheel_torque_limit_Nm");
   robot.arm_torque_limit = torqueLimit("arm_torque_limit_Nm");
 
-  if (in.has("actuators")) checkDriveAgreement(urdf, readActuators(in), in);
+  if (in.has("actuators")) {
+    const RobotActuators actuators = readActuators(in);
+    checkDriveAgreement(urdf, actuators, in);
+    robot.wheel_speed_limit = actuators.wheel.speed_limit;
+  }
   in.raw("sensors");
   in.finish();
   return robot;

@@ -1,7 +1,10 @@
 #include "controller/command_governor.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "model/frames.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
@@ -15,10 +18,13 @@ class CommandGovernorTest : public ::testing::Test {
     schedule_.ball_position_weight = TimedWeight<2>(Eigen::Vector2d::Constant(100));
   }
 
+  static ReducedDynamics::EndEffector tip(const Vector3& p_WE, const Matrix3& R_WE = Matrix3::Identity()) {
+    return {p_WE, R_WE, Vector3::Zero(), Vector3::Zero()};
+  }
   /// The governor every 14 ms up to `until`, for a robot that is where it was asked to be.
   void followUntil(double until) {
     for (; t_ < until; t_ += 0.014) {
-      governor_.update(at(t_), schedule_, x_, schedule_.ee_position.value(t_));
+      governor_.update(at(t_), schedule_, x_, tip(schedule_.ee_position.value(t_)));
       x_.segment<2>(kBallX) = governor_.commands().ball_position.anchor;
     }
   }
@@ -65,7 +71,7 @@ TEST_F(CommandGovernorTest, ApproachesAFarStepAtItsSpeedAndArrivesExactly) {
 
 TEST_F(CommandGovernorTest, StaysNearARobotThatIsHeldBack) {
   schedule_.ball_position.step(0.1, {5, 0});
-  for (; t_ < 4; t_ += 0.014) governor_.update(at(t_), schedule_, x_, Vector3::Zero());
+  for (; t_ < 4; t_ += 0.014) governor_.update(at(t_), schedule_, x_, tip(Vector3::Zero()));
   EXPECT_LE(reference(0).norm(), limits_.lag + limits_.lead);
 }
 
@@ -91,6 +97,35 @@ TEST_F(CommandGovernorTest, HeightsBeyondTheArmAndAnglesBeyondStopsAreAskedForAt
   EXPECT_GE(arm[2], robot_.arm[2].lower_limit);
 }
 
+TEST_F(CommandGovernorTest, AnOrientationTurnsTheShortWayAtItsSpeedAndArrivesExactly) {
+  const Vector3 asked(2 * M_PI - 1.5, 0.2, -0.3);  // nearer the other way round
+  const Matrix3 goal = rotationFromYawPitchRoll(asked[0], asked[1], asked[2]);
+  Matrix3 R = rotationFromYawPitchRoll(0, 0, 0), last = R;
+  schedule_.ee_orientation = TimeSignal<3>(Vector3::Zero());
+  schedule_.ee_orientation.step(0.1, asked);
+  const GovernedOrientation& turn = governor_.commands().ee_orientation;
+  for (; t_ < 4; t_ += 0.014) {
+    governor_.update(at(t_), schedule_, x_, tip(Vector3::Zero(), R));
+    const Vector3 now = schedule_.ee_orientation.value(t_);
+    const Matrix3 reference = turn.reference(rotationFromYawPitchRoll(now[0], now[1], now[2]), 0);
+    EXPECT_LE(logSO3(reference * last.transpose()).norm(), limits_.angle_lead + limits_.angle_speed * 0.015) << t_;
+    if (t_ > 0.12 && t_ < 1) EXPECT_LT(yawPitchRollFromRotation(reference)[0], 0);
+    last = reference;
+    R = turn.anchor;
+  }
+  EXPECT_EQ(last, goal);
+  EXPECT_FALSE(turn.approaching);
+}
+
+TEST_F(CommandGovernorTest, AnOrientationStaysNearTheRobots) {
+  schedule_.ee_orientation = TimeSignal<3>(Vector3::Zero());
+  schedule_.ee_orientation.step(0.1, {0, 0, 2.5});
+  for (; t_ < 6; t_ += 0.014) governor_.update(at(t_), schedule_, x_, tip(Vector3::Zero()));
+  const Matrix3 reference = governor_.commands().ee_orientation.reference(
+      rotationFromYawPitchRoll(0, 0, 2.5), 0);
+  EXPECT_NEAR(logSO3(reference).norm(), limits_.angle_lag + limits_.angle_lead, 1e-9);
+}
+
 TEST_F(CommandGovernorTest, ContinuesAfterASaveAsIfNothingWas) {
   schedule_.ball_position.step(0.1, {3, 4});
   followUntil(1);
@@ -101,8 +136,8 @@ TEST_F(CommandGovernorTest, ContinuesAfterASaveAsIfNothingWas) {
   BlobReader in(blob, "test", 1);
   other.restore(in);
   in.finish();
-  governor_.update(at(1.1), schedule_, x_, Vector3::Zero());
-  other.update(at(1.1), schedule_, x_, Vector3::Zero());
+  governor_.update(at(1.1), schedule_, x_, tip(Vector3::Zero()));
+  other.update(at(1.1), schedule_, x_, tip(Vector3::Zero()));
   EXPECT_EQ(governor_.commands().ball_position.anchor, other.commands().ball_position.anchor);
   EXPECT_EQ(governor_.commands().ball_position.approaching, other.commands().ball_position.approaching);
   EXPECT_EQ(governor_.cutting(), other.cutting());

@@ -3,6 +3,7 @@
     tables.py messages                  types of messages: fingerprint, bytes
     tables.py rejected SCENARIO         what the estimator rejected in a run of it, counted
     tables.py estimation SCENARIO...    errors of the estimate, one run a row
+    tables.py seeds                     what was required and measured over seeds, of `ballbot reproduce --seeds N --json` on stdin
     tables.py faults                    the table of `ballbot hil --faults --json`, read from stdin
 """
 import json
@@ -66,6 +67,24 @@ def estimation(*scenarios):
     table(["scenario", "tilt rms", "velocity rms", "drift", "yaw at the end", "rejected"], rows)
 
 
+def significant(value):
+    """Three digits, without an exponent."""
+    text = f"{float(f'{value:.3g}'):f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def seeds():
+    rows = []
+    for experiment in json.load(sys.stdin)["experiments"]:
+        spread = experiment["seeds"]
+        for number, required in enumerate(r for r in experiment["requirements"] if r["metric"] != "fell"):
+            m = spread["metrics"][required["metric"]]
+            rows.append([f"`{experiment['scenario']}`: {spread['passed']} of {spread['count']}" if number == 0 else "",
+                         f"`{required['metric']}`", required["limit"],
+                         f"{significant(m['median'])} ({significant(m['least'])} to {significant(m['largest'])})"])
+    table(["experiment: seeds that pass", "metric", "limit", "median (range)"], rows)
+
+
 def faults():
     rows = json.load(sys.stdin)["rows"]
     table(["fault", "reaction", "bound, cycles", "took"],
@@ -74,4 +93,4 @@ def faults():
 
 
 if __name__ == "__main__":
-    {"messages": messages, "rejected": rejected, "estimation": estimation, "faults": faults}[sys.argv[1]](*sys.argv[2:])
+    {"messages": messages, "rejected": rejected, "estimation": estimation, "seeds": seeds, "faults": faults}[sys.argv[1]](*sys.argv[2:])

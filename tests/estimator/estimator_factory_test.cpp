@@ -44,6 +44,10 @@ TEST(EstimatorFactory, TheShippedTwoStateFileHoldsTheDefaults) {
   EXPECT_NEAR(read.initial.yaw, defaults.initial.yaw, 1e-6);
   EXPECT_NEAR(read.initial.tilt, defaults.initial.tilt, 1e-12);
   EXPECT_EQ(read.gate.wheel_gate_sigma, defaults.gate.wheel_gate_sigma);
+  EXPECT_EQ(read.balance.moment_sigma, defaults.balance.moment_sigma);
+  EXPECT_EQ(read.balance.momentum_sigma, defaults.balance.momentum_sigma);
+  EXPECT_EQ(read.balance.window_s, defaults.balance.window_s);
+  EXPECT_EQ(read.balance.push_chi_square, defaults.balance.push_chi_square);
   EXPECT_EQ(read.imu_wait, defaults.imu_wait);
   EXPECT_FALSE(read.use_external_pose);
 }

@@ -1,8 +1,12 @@
+#include <cmath>
 #include <ostream>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/random.hpp"
 #include "tests/tools/program.hpp"
 
 namespace ballbot {
@@ -25,11 +29,11 @@ class FarCommands : public ::testing::TestWithParam<FarCommand> {};
 TEST_P(FarCommands, AreApproachedAndDoNotFellTheRobot) {
   const FarCommand& far = GetParam();
   const TemporaryFolder folder;
-  const Finished run = runBallbot(
-      {"run", scenarioPath(far.scenario), "--seed", "3", "--in-process", "--quiet", "--no-report",
-       "--json", "--out", folder / "run", "--set", "duration_s=9", "--set", "requirements={}",
-       "--set", "plant.fidelity.multibody=reduced_wheels", "--set",
-       kTasks + far.task + ".reference=" + far.reference});
+  const Finished run =
+      runBallbot({"run", scenarioPath(far.scenario), "--seed", "3", "--in-process", "--quiet",
+                  "--no-report", "--json", "--out", folder / "run", "--set", "duration_s=9",
+                  "--set", "requirements={}", "--set", "plant.fidelity.multibody=reduced_wheels",
+                  "--set", kTasks + far.task + ".reference=" + far.reference});
   const auto json = nlohmann::json::parse(run.out, nullptr, false);
   ASSERT_FALSE(json.is_discarded()) << run.err;
   EXPECT_FALSE(json["fell"].get<bool>());
@@ -51,6 +55,74 @@ INSTANTIATE_TEST_SUITE_P(
         FarCommand{"EeStepBallHeld", "whole_body_sequence", "ee_position",
                    "{moves: [{at_s: 2, by: [5, 0, 0]}]}"}),
     [](const auto& test) { return std::string(test.param.name); });
+
+/// What nobody sane asks for, repeatable by number: every task of the scenario is sent somewhere
+/// six times in 20 s, up to 100 m or 100 rad away, at once or within seconds.
+class AbsurdCommands {
+ public:
+  explicit AbsurdCommands(int number)
+      : stream_(static_cast<std::uint64_t>(number), "absurd_commands") {}
+
+  std::string moves(int dimension, double scale) {
+    std::string text;
+    for (int i = 0; i < 6; ++i) {
+      std::vector<std::string> by;
+      const double at = between(1.5, 18);
+      for (int k = 0; k < dimension; ++k) by.push_back(fmt::format("{:.3f}", scale * distance()));
+      const double over = between(0, 1) < 2.0 / 3 ? 0 : between(0.1, 4);
+      text += fmt::format("{}{{at_s: {:.3f}, by: [{}], over_s: {:.2f}}}", i ? ", " : "", at,
+                          fmt::join(by, ", "), over);
+    }
+    return "{moves: [" + text + "]}";
+  }
+
+ private:
+  double between(double low, double high) {
+    return low + (high - low) * stream_.uniforms(drawn_++, 0)[0];
+  }
+  double distance() {
+    if (between(0, 1) < 0.3) return 0;
+    const double sign = between(0, 1) < 0.5 ? -1 : 1;
+    return sign * std::pow(10, between(-0.3, 2));
+  }
+  RandomStream stream_;
+  std::uint64_t drawn_ = 0;
+};
+
+class ManyFarCommands : public ::testing::TestWithParam<int> {};
+
+// Twelve runs of some twenty commands each.
+TEST_P(ManyFarCommands, AtOnceOnAllTasksDoNotFellTheRobot) {
+  const std::string scenario = std::vector<std::string>{
+      "balance", "ee_pose_tracking", "whole_body_sequence", "circle"}[GetParam() % 4];
+  AbsurdCommands absurd(GetParam());
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments = {"run",          scenarioPath(scenario),
+                                        "--seed",       std::to_string(1 + GetParam()),
+                                        "--in-process", "--quiet",
+                                        "--no-report",  "--json",
+                                        "--out",        folder / "run",
+                                        "--set",        "duration_s=20",
+                                        "--set",        "requirements={}",
+                                        "--set",        "plant.fidelity.multibody=reduced_wheels"};
+  const auto send = [&](const char* task, int dimension, double scale) {
+    arguments.push_back("--set");
+    arguments.push_back(kTasks + task + ".reference=" + absurd.moves(dimension, scale));
+  };
+  if (scenario != "ee_pose_tracking") send("ball_position", 2, 1);  // there the ball is free
+  if (scenario != "balance") send("ee_position", 3, 1);
+  send("yaw", 1, 1);
+  send("ee_orientation", 3, 0.5);
+  const Finished run = runBallbot(arguments);
+  const auto json = nlohmann::json::parse(run.out, nullptr, false);
+  ASSERT_FALSE(json.is_discarded()) << run.err;
+  EXPECT_FALSE(json["fell"].get<bool>());
+  EXPECT_LT(json["largest_tilt_deg"].get<double>(), 35);
+  EXPECT_GT(json["metrics"]["plans_with_cut_commands"].get<double>(), 0);
+  EXPECT_GT(json["metrics"]["least_arm_position_margin_rad"].get<double>(), -0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, ManyFarCommands, ::testing::Range(0, 12));
 
 }  // namespace
 }  // namespace ballbot

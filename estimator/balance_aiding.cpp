@@ -1,0 +1,126 @@
+#include "estimator/balance_aiding.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "model/frames.hpp"
+
+namespace ballbot {
+namespace {
+
+/// Arm rates are taken over so long: encoders count in steps, and a rate over one period is mostly
+/// these [ns].
+constexpr SimDuration kRateSpan{10'000'000};
+
+StateVector wholeBodyState(const FilterState& x, SimTime time, const JointHistory& joints) {
+  StateVector out = StateVector::Zero();
+  const Vector3 ypr = yawPitchRollFromRotation(x.R_WB);
+  out.segment<3>(kYaw) = ypr;
+  out.segment<2>(kPositionDim) = x.v_WK_W;
+  out.segment<3>(kPositionDim + kOmegaX) = x.w_WB_B;
+  if (joints.empty()) return out;
+  const Vector3 arm = joints.at(time).tail<kArmJointCount>();
+  const SimTime before = std::max(time - kRateSpan, joints.oldestTime());
+  out.segment<3>(kArm1) = arm;
+  if (before < time) {
+    out.segment<3>(kPositionDim + kArmRate1) =
+        (arm - joints.at(before).tail<kArmJointCount>()) / toSeconds(time - before);
+  }
+  return out;
+}
+
+}  // namespace
+
+BalanceAiding::BalanceAiding(const RobotParameters& robot, const BalanceSettings& settings)
+    : dynamics_(robot),
+      settings_(settings),
+      ball_height_moment_(robot.totalMass() * robot.ball.radius) {}
+
+ContactMomentum BalanceAiding::momentumNow(SimTime time, const JointHistory& joints,
+                                           const FilterState& x) const noexcept {
+  return contactMomentum(dynamics_, wholeBodyState(x, time, joints));
+}
+
+void BalanceAiding::step(double h, SimTime time, const JointHistory& joints,
+                         InformationFilter& filter) noexcept {
+  if (!settings_.enabled) return;
+  ContactMomentum now = momentumNow(time, joints, filter.state());
+  if (begun_) {
+    const Eigen::Vector2d& v = filter.state().v_WK_W;
+    const double rise = now.height_moment - height_moment_;  // of m z_C; v_K x m v_C has no more
+    explained_ +=
+        0.5 * h * (moment_ + now.gravity_moment_W) - Eigen::Vector2d(v.y() * rise, -v.x() * rise);
+    elapsed_ += h;
+  }
+  moment_ = now.gravity_moment_W;
+  height_moment_ = now.height_moment;
+  if (begun_ && elapsed_ < settings_.window_s - h / 2) return;
+
+  if (begun_) {
+    const double stiffness = dynamics_.robot().gravity * (now.height_moment - ball_height_moment_);
+    const Eigen::Vector2d unexplained = (now.momentum_W - momentum_ - explained_) / elapsed_;
+    const double sigma = std::sqrt(2.0) * settings_.momentum_sigma / elapsed_ / stiffness;
+    correct(unexplained / stiffness, sigma * sigma, filter);
+    now = momentumNow(time, joints, filter.state());
+    moment_ = now.gravity_moment_W;
+    height_moment_ = now.height_moment;
+  }
+  begun_ = true;
+  elapsed_ = 0;
+  momentum_ = now.momentum_W;
+  explained_.setZero();
+}
+
+void BalanceAiding::correct(const Eigen::Vector2d& tilt_W, double variance,
+                            InformationFilter& filter) noexcept {
+  const Matrix3& R = filter.state().R_WB;
+  const Eigen::Matrix<double, 2, 3> tilt_by_attitude = R.topRows<2>();
+  const Eigen::Matrix2d P = tilt_by_attitude *
+                            filter.covariance().block<3, 3>(kTanAttitude, kTanAttitude) *
+                            tilt_by_attitude.transpose();
+  const double stiffness = dynamics_.robot().gravity * (height_moment_ - ball_height_moment_);
+  const double floor = std::pow(settings_.moment_sigma / stiffness, 2);
+  Eigen::Matrix2d S = P;
+  S.diagonal().array() += variance + floor;
+  const bool pushed_before = pushed_;
+  pushed_ = tilt_W.dot(S.inverse() * tilt_W) > settings_.push_chi_square;
+  if (pushed_ || pushed_before) return;
+
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(P);
+  Eigen::Matrix<double, 3, kTangentDim> H = Eigen::Matrix<double, 3, kTangentDim>::Zero();
+  Vector3 y = Vector3::Zero();
+  for (int i = 0; i < 2; ++i) {
+    const double allowed = 1 / floor - 1 / std::max(axes.eigenvalues()[i], 1e-12);
+    if (allowed <= 0) continue;
+    const double root = std::sqrt(std::min(allowed, 1 / variance));
+    const Eigen::Vector2d u = axes.eigenvectors().col(i);
+    H.block<1, 3>(i, kTanAttitude) = root * u.transpose() * tilt_by_attitude;
+    y[i] = -root * u.dot(tilt_W);
+  }
+  if (!H.isZero(0)) filter.addRows(H, y);
+}
+
+void BalanceAiding::save(BlobWriter& out) const {
+  out.put(begun_);
+  out.put(pushed_);
+  out.put(elapsed_);
+  out.putDoubles(momentum_.data(), 2);
+  out.putDoubles(explained_.data(), 2);
+  out.putDoubles(moment_.data(), 2);
+  out.put(height_moment_);
+}
+
+void BalanceAiding::restore(BlobReader& in) {
+  begun_ = in.get<bool>();
+  pushed_ = in.get<bool>();
+  elapsed_ = in.get<double>();
+  in.getDoubles(momentum_.data(), 2);
+  in.getDoubles(explained_.data(), 2);
+  in.getDoubles(moment_.data(), 2);
+  height_moment_ = in.get<double>();
+}
+
+}  // namespace ballbot
