@@ -203,24 +203,28 @@ void RemoteParticipant::throwUnbelievable(const std::string& what) const {
 void RemoteParticipant::throwUnlessOk() const {
   const Reply& reply = client_->reply();
   if (reply.status == Reply::OK) return;
+  const std::string text =
+      reply.text.empty()
+          ? fmt::format("{} refused request {} and did not say why", options_.name,
+                        client_->sequence())
+          : reply.text;
   if (reply.status == Reply::REFUSED) {
-    const std::string text = reply.text;
     client_.reset();  // there is no session to abort
     throw InputError(text);
   }
   if (reply.status == Reply::FAILED) {
     switch (static_cast<ExitCode>(reply.exit_code)) {
       case ExitCode::kBadInput:
-        throw InputError(reply.text);
+        throw InputError(text);
       case ExitCode::kOutputFailed:
-        throw OutputError(reply.text);
+        throw OutputError(text);
       case ExitCode::kInterrupted:
-        throw InterruptedError(reply.text);
+        throw InterruptedError(text);
       default:
         break;
     }
   }
-  throw LostParticipantError(options_.name, reply.text);
+  throw LostParticipantError(options_.name, text);
 }
 
 void RemoteParticipant::throwLost(WallDuration waited, int tries) const {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include "tests/controller/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
@@ -27,7 +27,7 @@ StateJacobian heldClosedLoop(const ReducedDynamics& dynamics, const LqrSolution&
 }
 
 double spectralRadius(const StateJacobian& A) {
-  return Eigen::EigenSolver<StateJacobian>(A, false).eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvaluesOf(A).cwiseAbs().maxCoeff();
 }
 
 /// The example robot with arm links ten times lighter.

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <complex>
 
-#include <Eigen/Eigenvalues>
 #include <gmock/gmock.h>
 
 #include "controller/riccati_equation.hpp"
 #include "core/error.hpp"
+#include "tests/controller/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
@@ -28,7 +28,7 @@ LinearModel linearAt(const ReducedDynamics& dynamics, const Equilibrium& equilib
 }
 
 double largestRealPart(const MatrixXd& A) {
-  return Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues().real().maxCoeff();
+  return eigenvaluesOf(A).real().maxCoeff();
 }
 
 /// The closed loop with every torque behind a second-order lag of natural frequency `f_Hz` and a

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
 #include "model/state.hpp"
+#include "tests/controller/support/eigenvalues.hpp"
 
 namespace ballbot {
 namespace {
@@ -22,15 +22,9 @@ Eigen::Matrix<double, N, N> fromHamiltonian(const Eigen::Matrix<double, N, N>& A
                                             const Eigen::Matrix<double, N, N>& Q) {
   Eigen::Matrix<double, 2 * N, 2 * N> H;
   H << A, -G, -Q, -A.transpose();
-  const Eigen::EigenSolver<decltype(H)> eigen(H);
-  Eigen::Matrix<std::complex<double>, 2 * N, N> stable;
-  int found = 0;
-  for (int i = 0; i < 2 * N; ++i) {
-    if (eigen.eigenvalues()[i].real() < 0 && found < N)
-      stable.col(found++) = eigen.eigenvectors().col(i);
-  }
-  EXPECT_EQ(found, N);
-  return (stable.template bottomRows<N>() * stable.template topRows<N>().inverse()).real();
+  const Eigen::MatrixXcd stable = stableEigenvectorsOf(H);
+  EXPECT_EQ(stable.cols(), N);
+  return (stable.bottomRows(N) * Eigen::MatrixXcd(stable.topRows(N)).inverse()).real();
 }
 
 TEST(RiccatiEquation, MatchesTheDoubleIntegratorInClosedForm) {

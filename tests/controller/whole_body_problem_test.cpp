@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "model/frames.hpp"
+#include "tests/controller/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
@@ -219,7 +219,7 @@ TEST_P(WholeBodyProblemTest, HessiansArePositiveSemidefinite) {
   H.topLeftCorner<kMpcStateDim, kMpcStateDim>() = lq.Q();
   H.bottomRightCorner<NU, NU>() = lq.R();
   H.bottomLeftCorner<NU, kMpcStateDim>() = lq.Pt().transpose();
-  const auto eigen = Eigen::SelfAdjointEigenSolver<decltype(H)>(H).eigenvalues();
+  const Eigen::VectorXd eigen = symmetricEigenvaluesOf(H);
   EXPECT_GT(eigen[0], -1e-9 * eigen.tail<1>()[0]);
 }
 
