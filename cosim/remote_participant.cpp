@@ -216,6 +216,8 @@ void RemoteParticipant::throwUnlessOk() const {
         throw OutputError(reply.text);
       case ExitCode::kInterrupted:
         throw InterruptedError(reply.text);
+      case ExitCode::kTorqueNotOff:
+        throw TorqueNotOffError(reply.text);
       default:
         break;
     }
