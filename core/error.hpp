@@ -13,6 +13,7 @@ enum class ExitCode : int {
   kBadInput = 2,
   kLostParticipant = 3,  ///< a process of the run died, went silent or answered nonsense
   kOutputFailed = 4,     ///< the disk is full, a folder cannot be written
+  kTorqueNotOff = 5,     ///< a drive of a bench has not said that its torque is off
   kInterrupted = 130,    ///< Ctrl-C, as shells have it
 };
 
@@ -43,6 +44,12 @@ class LostParticipantError : public Error {
 
  private:
   std::string participant_;
+};
+
+/// A drive of a bench has not said that its torque is off: a person must take its power away.
+class TorqueNotOffError : public Error {
+ public:
+  explicit TorqueNotOffError(const std::string& text) : Error(ExitCode::kTorqueNotOff, text) {}
 };
 
 /// Something could not be written.

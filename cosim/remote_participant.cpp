@@ -220,6 +220,8 @@ void RemoteParticipant::throwUnlessOk() const {
         throw OutputError(text);
       case ExitCode::kInterrupted:
         throw InterruptedError(text);
+      case ExitCode::kTorqueNotOff:
+        throw TorqueNotOffError(text);
       default:
         break;
     }

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include <fmt/format.h>
 
 namespace ballbot {
 namespace {
 
-// Over this time a disagreement of position and velocity is forgotten [s].
-constexpr double kMismatchMemory = 0.5;
+// From a goal below "enabled" to the statusword that shows it, and one to spare.
+constexpr int kUnbiddenCycles = 3;
+constexpr int kTwinCycles = 2;  // of the last 32
+constexpr ObjectAddress kStatuswordObject{0x6041, 0};
 
 Safety::Timing timingOf(const SafetyConfig& s) { return {s.damping_cycles, s.transition_cycles}; }
 
@@ -18,29 +17,50 @@ bool allFinite(const DriveArray& values) noexcept {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
+std::vector<std::vector<SetupStep>> setupsOf(const BenchConfig& config) {
+  std::vector<std::vector<SetupStep>> setups;
+  for (const DriveConfig& drive : config.drives) setups.push_back(driveSetup(config, drive));
+  return setups;
+}
+
 }  // namespace
 
 Bench::Bench(const BenchConfig& config)
     : config_(config),
       master_(config),
-      safety_(timingOf(config.safety)) {}
+      safety_(timingOf(config.safety)),
+      way_down_(config.safety.confirm_cycles),
+      command_doubt_(config_),
+      imu_doubt_(config_),
+      parameters_(setupsOf(config)) {
+  for (int i = 0; i < kDriveCount; ++i) drive_doubts_.emplace_back(config_, i);
+}
 
 // Of several faults in one cycle the gravest counts.
+void Bench::notice(const Finding& found) noexcept {
+  if (!found) return;
+  if (!seen_ || (dampsFirst(seen_.fault) && !dampsFirst(found.fault))) seen_ = found;
+}
+
 void Bench::notice(BenchFault fault, int drive, double value, double limit) noexcept {
-  if (seen_.fault == BenchFault::kNone || (dampsFirst(seen_.fault) && !dampsFirst(fault))) {
-    seen_ = {fault, drive, value, limit};
-  }
+  notice(Finding{fault, drive, value, limit});
 }
 
 void Bench::observe(int skipped_cycles) noexcept {
   seen_ = {};
   checkNetwork();
   checkDrives();
-  checkMotion((1 + skipped_cycles) * config_.cycleSeconds());
+  checkMeasurements(1 + skipped_cycles);
+  checkImu((1 + skipped_cycles) * config_.cycleSeconds());
+  checkMotion();
+  checkParameters();
 }
 
 // Without the IMU the drives can still brake the robot; without a drive they cannot.
 void Bench::checkNetwork() noexcept {
+  if (master_.foreignFrame()) {
+    notice(BenchFault::kForeignFrame, -1, static_cast<double>(master_.foreignFrame()->id));
+  }
   for (int i = 0; i <= kDriveCount; ++i) {
     if (master_.link(i).trouble() == NodeTrouble::kNone) continue;
     const bool only_imu =
@@ -55,6 +75,10 @@ void Bench::checkDrives() noexcept {
     if (d.stale_cycles >= config_.safety.stale_cycles) {
       notice(BenchFault::kDriveStale, i, d.stale_cycles, config_.safety.stale_cycles);
     }
+    if (d.misses.count() >= config_.safety.most_misses) {
+      notice(BenchFault::kDriveMisses, i, d.misses.count(), config_.safety.most_misses);
+    }
+    if (d.twins.count() >= kTwinCycles) notice(BenchFault::kNodeTwin, i);
     if (d.stale_cycles != 0) continue;
     const DriveState state = driveState(d.statusword);
     bool& enabled = was_enabled_[static_cast<std::size_t>(i)];
@@ -68,35 +92,69 @@ void Bench::checkDrives() noexcept {
       notice(BenchFault::kDriveDroppedOut, i, d.statusword);
     }
     enabled = state == DriveState::kOperationEnabled;
+    const bool bidden = d.power.goal() == DriveGoal::kEnabled || way_down_.underWay();
+    int& unbidden = unbidden_[static_cast<std::size_t>(i)];
+    unbidden =
+        WayDown::saidBy(state) == WayDown::Said::kOn && !bidden && state != DriveState::kSwitchedOn
+            ? unbidden + 1
+            : 0;
+    if (unbidden >= kUnbiddenCycles) notice(BenchFault::kDriveUnbidden, i, d.statusword);
+  }
+}
+
+// Whatever is doubted is not used to brake with either: torque off.
+void Bench::checkMeasurements(int elapsed) noexcept {
+  const BenchSample& s = master_.sample();
+  const bool torque_on = safety_.action() == SafetyAction::kZeroTorque ||
+                         safety_.action() == SafetyAction::kFollow ||
+                         safety_.action() == SafetyAction::kDamp;
+  if (!allFinite(s.joint_angle) || !allFinite(s.joint_velocity) || !allFinite(s.joint_torque) ||
+      !allFinite(s.motor_angle)) {
+    notice(BenchFault::kSensorNotFinite);
+  }
+  for (int i = 0; i < kDriveCount; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    const BenchMaster::Drive& d = master_.drive(i);
+    DriveSeen seen;
+    seen.fresh = d.stale_cycles == 0;
+    seen.elapsed = elapsed;
+    seen.angle = s.joint_angle[n];
+    seen.motor_angle = s.motor_angle[n];
+    seen.velocity = s.joint_velocity[n];
+    seen.torque = s.joint_torque[n];
+    seen.demand = d.demand;
+    seen.enabled = driveState(d.statusword) == DriveState::kOperationEnabled;
+    if (torque_on) {
+      notice(drive_doubts_[n].check(seen, d.sent_torque));
+    } else {
+      drive_doubts_[n].rest(seen);
+    }
   }
 }
 
 /// @param dt  since the cycle before [s]
-void Bench::checkMotion(double dt) noexcept {
+void Bench::checkImu(double dt) noexcept {
   const BenchSample& s = master_.sample();
-  if (!allFinite(s.joint_angle) || !allFinite(s.joint_velocity) || !allFinite(s.joint_torque)) {
-    notice(BenchFault::kSensorNotFinite);
+  const bool fresh = s.imu_cycle == master_.cycle();
+  if (fresh) tilt_.update(dt, s.accel, s.gyro);
+  if (safety_.state() != SafetyState::kEnabled) return imu_doubt_.rest();
+  if (fresh) notice(imu_doubt_.check(dt, s.accel, s.gyro, tilt_.up()));
+  if (master_.imuStaleCycles() >= config_.safety.stale_cycles) {
+    notice(BenchFault::kImuStale, -1, master_.imuStaleCycles(), config_.safety.stale_cycles);
+  } else if (master_.imuMisses() >= config_.safety.most_misses) {
+    notice(BenchFault::kImuStale, -1, master_.imuMisses(), config_.safety.most_misses);
   }
-  if (s.imu_cycle == master_.cycle()) tilt_.update(dt, s.accel, s.gyro);
-  const bool torque_on = safety_.state() == SafetyState::kEnabled;
+  if (tilt_.tilt() > config_.safety.tilt) {
+    notice(BenchFault::kTiltLimit, -1, tilt_.tilt(), config_.safety.tilt);
+  }
+}
+
+void Bench::checkMotion() noexcept {
+  if (safety_.state() != SafetyState::kEnabled) return;
+  const BenchSample& s = master_.sample();
   for (int i = 0; i < kDriveCount; ++i) {
     const auto n = static_cast<std::size_t>(i);
     const DriveLimits& limits = config_.drives[n].limits;
-    const bool fresh = master_.drive(i).stale_cycles == 0;
-    const double step = s.joint_angle[n] - last_angle_[n];
-    if (has_last_ && fresh && std::isfinite(step)) {
-      mismatch_[n] += step - dt * s.joint_velocity[n];
-      mismatch_[n] *= std::max(0.0, 1 - dt / kMismatchMemory);
-    }
-    // The first sample after missing ones has come further than one period's velocity says.
-    last_angle_[n] = fresh ? s.joint_angle[n] : std::numeric_limits<double>::quiet_NaN();
-    if (!torque_on) {
-      mismatch_[n] = 0;
-      continue;
-    }
-    if (std::abs(mismatch_[n]) > config_.safety.encoder_mismatch) {
-      notice(BenchFault::kEncoderImplausible, i, mismatch_[n], config_.safety.encoder_mismatch);
-    }
     if (std::abs(s.joint_velocity[n]) > limits.velocity) {
       notice(BenchFault::kVelocityLimit, i, s.joint_velocity[n], limits.velocity);
     }
@@ -106,14 +164,24 @@ void Bench::checkMotion(double dt) noexcept {
              low ? limits.position_low : limits.position_high);
     }
   }
-  has_last_ = true;
-  if (!torque_on) return;
-  if (master_.imuStaleCycles() >= config_.safety.stale_cycles) {
-    notice(BenchFault::kImuStale, -1, master_.imuStaleCycles(), config_.safety.stale_cycles);
-  }
-  if (tilt_.tilt() > config_.safety.tilt) {
-    notice(BenchFault::kTiltLimit, -1, tilt_.tilt(), config_.safety.tilt);
-  }
+}
+
+void Bench::checkParameters() noexcept {
+  if (asked_drive_ < 0 || way_down_.underWay()) return;
+  const auto answer = master_.takeAnswer(asked_drive_);
+  if (!answer) return;
+  asked_drive_ = -1;
+  notice(parameters_.onAnswer(answer->given, answer->value));
+}
+
+// After the commands of a cycle, where the bus has nothing else to do.
+void Bench::askForParameter() noexcept {
+  if (config_.safety.read_back_cycles == 0 || asked_drive_ >= 0 || way_down_.underWay()) return;
+  if (++since_question_ < config_.safety.read_back_cycles) return;
+  since_question_ = 0;
+  const ParameterWatch::Question question = parameters_.next();
+  if (question.drive < 0) return;
+  if (master_.ask(question.drive, question.object, false)) asked_drive_ = question.drive;
 }
 
 void Bench::checkCommand(const Wishes& w) noexcept {
@@ -121,26 +189,8 @@ void Bench::checkCommand(const Wishes& w) noexcept {
   if (w.skipped_cycles >= config_.safety.late_cycles) {
     notice(BenchFault::kLateLoop, -1, w.skipped_cycles, config_.safety.late_cycles);
   }
-  if (safety_.action() != SafetyAction::kFollow || w.stop) return;
-  if (w.command_age > config_.safety.watchdog_cycles) {
-    notice(BenchFault::kCommandTimeout, -1, w.command_age, config_.safety.watchdog_cycles);
-  }
-  if (w.command == nullptr) return;
-  const BenchCommand& c = *w.command;
-  if (!allFinite(c.torque) || !allFinite(c.position) || !allFinite(c.velocity) ||
-      !allFinite(c.stiffness) || !allFinite(c.damping)) {
-    return notice(BenchFault::kCommandNotFinite);
-  }
-  for (int i = 0; i < kDriveCount; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    const DriveConfig& d = config_.drives[n];
-    const bool in_drive = config_.mode == DriveMode::kPosition;
-    // In torque mode the law may stay in the command: it is evaluated here, at bus rate.
-    if (in_drive && (std::abs(c.stiffness[n] - d.stiffness) > 1e-9 ||
-                     std::abs(c.damping[n] - d.damping) > 1e-9)) {
-      notice(BenchFault::kCommandGains, i, c.stiffness[n], d.stiffness);
-    }
-  }
+  if (safety_.action() != SafetyAction::kFollow || w.stop) return command_doubt_.rest();
+  notice(command_doubt_.check(w.command, w.command_number));
 }
 
 bool Bench::atRest() const noexcept {
@@ -166,6 +216,8 @@ DriveGoal Bench::goalOf(SafetyAction action) const noexcept {
 
 void Bench::actuate(const Wishes& w) noexcept {
   checkCommand(w);
+  checkWayDown();
+  const bool had_torque = safety_.action() != SafetyAction::kNoVoltage;
   const bool was_fault = safety_.state() == SafetyState::kFault;
   Safety::Events events;
   events.fault = seen_.fault;
@@ -178,7 +230,7 @@ void Bench::actuate(const Wishes& w) noexcept {
   if (w.prepare && safety_.state() == SafetyState::kDisabled) resetOldFaults();
   const SafetyAction action = safety_.step(events);
   if (!was_fault && safety_.state() == SafetyState::kFault) {
-    latched_ = seen_.fault == safety_.fault() ? seen_ : Seen{safety_.fault(), -1, 0, 0};
+    latched_ = seen_.fault == safety_.fault() ? seen_ : Finding{safety_.fault()};
   }
   out_ = {};
   out_.position = master_.sample().joint_angle;
@@ -190,7 +242,50 @@ void Bench::actuate(const Wishes& w) noexcept {
     torque_ = {};
   }
   master_.setGoal(goalOf(action));
+  if (action == SafetyAction::kNoVoltage) {
+    goDown(had_torque);
+  } else {
+    way_down_.end();
+  }
   master_.writeOutputs(out_);
+  askForParameter();
+}
+
+// A drive that needs more than being told "disable voltage" ends the run as a fault.
+void Bench::checkWayDown() noexcept {
+  for (int i = 0; i < kDriveCount; ++i) {
+    if (!way_down_.isDoubtful(i) || way_down_.stage(i) == WayDown::Stage::kDisable) continue;
+    notice(BenchFault::kDriveTransition, i, master_.drive(i).statusword);
+  }
+}
+
+void Bench::goDown(bool had_torque) noexcept {
+  std::array<WayDown::Said, kDriveCount> said{};
+  bool any_on = false;
+  for (int i = 0; i < kDriveCount; ++i) {
+    const BenchMaster::Drive& d = master_.drive(i);
+    WayDown::Said& word = said[static_cast<std::size_t>(i)];
+    if (d.stale_cycles == 0) word = WayDown::saidBy(driveState(d.statusword));
+    any_on = any_on || (word == WayDown::Said::kOn && d.statusword != 0);
+  }
+  if (had_torque || (any_on && !way_down_.underWay())) way_down_.begin();
+  if (!way_down_.underWay()) return;
+  for (int i = 0; i < kDriveCount; ++i) {
+    const auto answer = master_.takeAnswer(i);
+    WayDown::Said& word = said[static_cast<std::size_t>(i)];
+    if (!answer || !answer->given || word != WayDown::Said::kNothing) continue;
+    if (answer->object == kStatuswordObject) {
+      word = WayDown::saidBy(driveState(static_cast<std::uint16_t>(answer->value)));
+    }
+  }
+  way_down_.step(said);
+  for (int i = 0; i < kDriveCount; ++i) {
+    const WayDown::Order& order = way_down_.order(i);
+    master_.setGoal(i, order.goal);
+    if (order.nmt_stop) master_.nmt(i, NmtCommand::kStop);
+    if (order.nmt_pre_operational) master_.nmt(i, NmtCommand::kPreOperational);
+    if (order.ask) master_.ask(i, kStatuswordObject, true);
+  }
 }
 
 // Once per drive, and only of faults that were there before anybody wanted torque.
@@ -258,35 +353,6 @@ CycleRecord Bench::record() const noexcept {
     r.statusword[static_cast<std::size_t>(i)] = master_.drive(i).statusword;
   }
   return r;
-}
-
-std::string Bench::faultText() const {
-  const BenchFault fault = safety_.fault();
-  if (fault == BenchFault::kNone) return "";
-  std::string text = toText(fault);
-  if (latched_.drive >= 0 && latched_.drive < kDriveCount) {
-    text += ": " + config_.drives[static_cast<std::size_t>(latched_.drive)].name;
-  }
-  switch (fault) {
-    case BenchFault::kNodeTrouble:
-      return text + (latched_.drive == BenchMaster::kImuLink ? ": IMU" : "") + ": " +
-             master_.link(latched_.drive).troubleText();
-    case BenchFault::kDriveFault:
-    case BenchFault::kDriveDroppedOut: {
-      const auto word = static_cast<std::uint16_t>(latched_.value);
-      return fmt::format("{} ({}, statusword {:04X})", text, toText(driveState(word)), word);
-    }
-    case BenchFault::kDriveTransition:
-    case BenchFault::kCommandNotFinite:
-    case BenchFault::kSensorNotFinite:
-    case BenchFault::kBusDown:
-      return text;
-    default:
-      if (latched_.drive == BenchMaster::kImuLink) {
-        return text + ": " + master_.link(latched_.drive).troubleText();
-      }
-      return fmt::format("{} ({:.4g}, limit {:.4g})", text, latched_.value, latched_.limit);
-  }
 }
 
 }  // namespace ballbot

@@ -8,8 +8,14 @@
 #include "hil/bench_config.hpp"
 #include "hil/bench_master.hpp"
 #include "hil/bench_signals.hpp"
+#include "hil/doubt/command_doubt.hpp"
+#include "hil/doubt/drive_doubt.hpp"
+#include "hil/doubt/finding.hpp"
+#include "hil/doubt/imu_doubt.hpp"
+#include "hil/doubt/parameter_watch.hpp"
 #include "hil/safety.hpp"
 #include "hil/tilt_monitor.hpp"
+#include "hil/way_down.hpp"
 
 namespace ballbot {
 
@@ -30,6 +36,8 @@ struct CycleRecord {
 class Bench {
  public:
   explicit Bench(const BenchConfig& config);
+  Bench(const Bench&) = delete;  // its parts point at its configuration
+  Bench& operator=(const Bench&) = delete;
 
   BenchMaster& master() noexcept { return master_; }
   const BenchMaster& master() const noexcept { return master_; }
@@ -42,10 +50,10 @@ class Bench {
     bool engage = false;   ///< torque wanted
     bool stop = false;     ///< end of session, or Ctrl-C
     bool bus_down = false;
-    int skipped_cycles = 0;  ///< in a row, by a loop that was late
-    /// Cycles since the command below was given; a new one has 0.
-    int command_age = 0;
+    int skipped_cycles = 0;                 ///< in a row, by a loop that was late
     const BenchCommand* command = nullptr;  ///< null: none yet
+    /// Grows with every new command; one that stays the same grows old.
+    std::int64_t command_number = 0;
   };
 
   /// After the frames of a cycle came: judges what was measured.
@@ -60,38 +68,65 @@ class Bench {
   bool atRest() const noexcept;
   CycleRecord record() const noexcept;
 
+  const WayDown& wayDown() const noexcept { return way_down_; }
+  /// Nobody has asked for torque yet, or every drive has said that it is off again.
+  bool torqueIsOff() const noexcept {
+    return safety_.action() == SafetyAction::kNoVoltage &&
+           (!way_down_.underWay() || way_down_.confirmed());
+  }
+  /// The torque is off, or all has been done that can be done by wire.
+  bool isDown() const noexcept {
+    return safety_.action() == SafetyAction::kNoVoltage &&
+           (!way_down_.underWay() || way_down_.over());
+  }
+  const DriveDoubt& driveDoubt(int i) const {
+    return drive_doubts_.at(static_cast<std::size_t>(i));
+  }
+  const ParameterWatch& parameters() const noexcept { return parameters_; }
+  int commandAge() const noexcept { return command_doubt_.age(); }
+
   /// The latched fault in words, with drive, value and limit.
   std::string faultText() const;
+  /// What a person must know and do where drives have not said that they are off: one sentence for
+  /// each, with its node and its switch; "" if there is none.
+  std::string lastWord() const;
   std::int64_t saturatedCycles() const noexcept { return saturated_; }
 
  private:
   void notice(BenchFault fault, int drive = -1, double value = 0, double limit = 0) noexcept;
+  void notice(const Finding& found) noexcept;
   void checkNetwork() noexcept;
   void checkDrives() noexcept;
-  void checkMotion(double dt) noexcept;
+  void checkMotion() noexcept;
+  void checkImu(double dt) noexcept;
+  void checkMeasurements(int elapsed) noexcept;
+  void checkParameters() noexcept;
+  void askForParameter() noexcept;
   void checkCommand(const Wishes& wishes) noexcept;
   void follow(const BenchCommand& command) noexcept;
   void damp() noexcept;
+  void goDown(bool had_torque) noexcept;
+  void checkWayDown() noexcept;
   void resetOldFaults() noexcept;
   DriveGoal goalOf(SafetyAction action) const noexcept;
 
   BenchConfig config_;
   BenchMaster master_;
   Safety safety_;
+  WayDown way_down_;
+  CommandDoubt command_doubt_;
+  std::vector<DriveDoubt> drive_doubts_;
+  ImuDoubt imu_doubt_;
+  ParameterWatch parameters_;
+  int asked_drive_ = -1;  ///< owes the answer to a question of parameters_
+  int since_question_ = 0;
   TiltMonitor tilt_;
   BenchCommand out_;
   DriveArray torque_{};
-  DriveArray last_angle_{}, mismatch_{};
-  bool has_last_ = false;
   std::int64_t saturated_ = 0;
-  // The first fault seen in this cycle, and the one that was latched.
-  struct Seen {
-    BenchFault fault = BenchFault::kNone;
-    int drive = -1;
-    double value = 0, limit = 0;
-  };
-  Seen seen_, latched_;
+  Finding seen_, latched_;  ///< the gravest of this cycle, and the one that was latched
   std::array<bool, kDriveCount> was_enabled_{};
+  std::array<int, kDriveCount> unbidden_{};      ///< cycles with torque that nobody asked for
   std::array<bool, kDriveCount> reset_tried_{};  ///< of faults from before
 };
 

@@ -36,6 +36,10 @@ void readDriveValues(ConfigReader& in, DriveConfig& d) {
   l.position_high = kRadPerDeg * in.numberOr("position_high_deg", l.position_high / kRadPerDeg);
   d.stiffness = in.numberOr("stiffness_Nm_per_rad", d.stiffness, {0, 1e4});
   d.damping = in.numberOr("damping_Nms_per_rad", d.damping, {0, 1e3});
+  d.torque_frequency_Hz = in.numberOr("torque_frequency_Hz", d.torque_frequency_Hz, {1, 5000});
+  d.torque_damping_ratio = in.numberOr("torque_damping_ratio", d.torque_damping_ratio, {0.1, 10});
+  d.torque_delay = 1e-3 * in.numberOr("torque_delay_ms", 1e3 * d.torque_delay, {0, 100});
+  d.off_switch = in.textOr("off_switch", d.off_switch);
 }
 
 void readDrives(ConfigReader& in, BenchConfig& c) {
@@ -44,6 +48,7 @@ void readDrives(ConfigReader& in, BenchConfig& c) {
   defaults.scaling.encoder_counts = 14'400;
   defaults.scaling.motor_encoder_counts = 720'000;
   defaults.scaling.spring_stiffness = 350;
+  defaults.off_switch = "the emergency stop of the bench (STO)";
   defaults.limits = {4, 2000, 12, -1e6, 1e6};
   if (in.has("drive_defaults")) {
     ConfigReader d = in.child("drive_defaults");
@@ -132,6 +137,20 @@ void requireMapped(const BenchConfig& c, const std::string& where) {
   }
 }
 
+void readDoubts(ConfigReader& in, SafetyConfig& s) {
+  s.position_jump = in.numberOr("position_jump_rad", s.position_jump, {1e-4, 10});
+  s.spring_mismatch = in.numberOr("spring_mismatch_rad", s.spring_mismatch, {1e-5, 10});
+  s.torque_mismatch = in.numberOr("torque_mismatch_Nm", s.torque_mismatch, {1e-3, 1000});
+  s.torque_mismatch_share = in.numberOr("torque_mismatch_share", s.torque_mismatch_share, {0, 1});
+  s.torque_mismatch_cycles =
+      in.integerOr("torque_mismatch_cycles", s.torque_mismatch_cycles, {1, 1000});
+  s.doubt_cycles = in.integerOr("doubt_cycles", s.doubt_cycles, {1, 1000});
+  s.most_misses = in.integerOr("most_misses", s.most_misses, {1, 33});
+  s.imu_repeats = in.integerOr("imu_repeats", s.imu_repeats, {0, 1000});
+  s.read_back_cycles = in.integerOr("read_back_cycles", s.read_back_cycles, {0, 100'000});
+  s.command_repeats = in.integerOr("command_repeats", s.command_repeats, {0, 1e6});
+}
+
 void readSafety(ConfigReader in, SafetyConfig& s, const BenchConfig& c) {
   const auto cycles = [&](const char* key, int fallback) {
     const SimDuration t = in.durationOr(key, fallback * c.cycle, {0, 1e5});
@@ -142,6 +161,8 @@ void readSafety(ConfigReader in, SafetyConfig& s, const BenchConfig& c) {
   s.ramp_cycles = cycles("ramp_ms", s.ramp_cycles);
   s.heartbeat_cycles = cycles("heartbeat_timeout_ms", s.heartbeat_cycles);
   s.transition_cycles = cycles("transition_timeout_ms", s.transition_cycles);
+  s.confirm_cycles = cycles("confirm_off_ms", s.confirm_cycles);
+  if (s.confirm_cycles < 1) throw InputError(in.at("confirm_off_ms") + "must be a cycle or more");
   s.stale_cycles = in.integerOr("stale_cycles", s.stale_cycles, {1, 100});
   s.late_cycles = in.integerOr("late_cycles", s.late_cycles, {1, 100});
   s.damping = in.numberOr("damping_Nms_per_rad", s.damping, {0, 100});
@@ -149,6 +170,7 @@ void readSafety(ConfigReader in, SafetyConfig& s, const BenchConfig& c) {
   s.rest_velocity = in.numberOr("rest_velocity_rad_per_s", s.rest_velocity, {kTiny, 1});
   s.tilt = kRadPerDeg * in.numberOr("tilt_limit_deg", s.tilt / kRadPerDeg, {1, 90});
   s.encoder_mismatch = in.numberOr("encoder_mismatch_rad", s.encoder_mismatch, {1e-4, 10});
+  readDoubts(in, s);
   in.finish();
 }
 
@@ -219,8 +241,8 @@ BenchConfig readBenchConfig(const ConfigNode& tree) {
                            torque ? std::vector<std::vector<const char*>>{{"60400010", "60710010"}}
                                   : std::vector<std::vector<const char*>>{
                                         {"60400010", "60B20010", "607A0020"}, {"60B10020"}});
-  c.inputs =
-      readMappings(in, "tpdo", {{"60410010", "60770010", "60640020"}, {"606C0020", "60E40120"}});
+  c.inputs = readMappings(
+      in, "tpdo", {{"60410010", "60770010", "60640020"}, {"606C0020", "60E40120"}, {"60740010"}});
   requireMapped(c, tree.where().source + ": ");
   if (in.has("safety")) readSafety(in.child("safety"), c.safety, c);
   if (in.has("realtime")) readRealtime(in.child("realtime"), c);

@@ -32,11 +32,15 @@ struct DriveLimits {
 };
 
 struct DriveConfig {
-  std::string name;  ///< "wheel 1"
+  std::string name;        ///< "wheel 1"
+  std::string off_switch;  ///< what a person pulls to take its power: "STO of the wheels, S1"
   int bus = 0, node = 0;
   DriveScaling scaling;
   DriveLimits limits;
   double stiffness = 0, damping = 0;  ///< of the drive's position loop in kPosition mode
+  // Its response to a torque command, as `ballbot identify` finds it (second order).
+  double torque_frequency_Hz = 40, torque_damping_ratio = 0.7071067811865476;
+  double torque_delay = 0;  ///< [s]
 };
 
 struct ImuConfig {
@@ -58,6 +62,18 @@ struct SafetyConfig {
   int late_cycles = 4;             ///< periods skipped in a row by the loop
   int transition_cycles = 40;      ///< for a drive to confirm a transition
   double encoder_mismatch = 0.05;  ///< position against integrated velocity [rad]
+  int confirm_cycles = 4;          ///< on the way down: for a drive to say that it is off
+  // Doubts: hil/doubt/, docs/hil.md#checks.
+  double position_jump = 0.02;          ///< in one step, beyond what the velocity says [rad]
+  double spring_mismatch = 0.004;       ///< motor angle, joint angle and torque [rad]
+  double torque_mismatch = 0.4;         ///< felt against expected [N m]
+  double torque_mismatch_share = 0.25;  ///< and of the torque asked for or expected
+  int torque_mismatch_cycles = 6;       ///< how long
+  int doubt_cycles = 3;                 ///< for what is exact: spring, torque demand
+  int most_misses = 6;                  ///< cycles of the last 32 without a drive's PDOs
+  int imu_repeats = 6;                  ///< samples equal bit for bit; 0: as many as there are
+  int read_back_cycles = 10;            ///< from one parameter read to the next; 0: none
+  int command_repeats = 40;             ///< commands equal bit for bit; 0: as many as there are
 };
 
 struct RealtimeConfig {

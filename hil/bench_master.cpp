@@ -32,6 +32,7 @@ BenchMaster::BenchMaster(const BenchConfig& config)
   position_ = findInput({0x6064, 0});
   velocity_ = findInput({0x606C, 0});
   motor_position_ = findInput({0x60E4, 1});
+  demand_ = findInput({0x6074, 0});
   heartbeat_period_ = std::max(
       1, static_cast<int>(std::chrono::milliseconds(config.master_heartbeat_ms) / config.cycle));
 }
@@ -64,6 +65,12 @@ bool BenchMaster::configured() const noexcept {
 void BenchMaster::start() noexcept {
   for (NodeLink& link : links_) link.start();
   pushAll(nmtFrame(NmtCommand::kStart, 0));
+  foreign_.reset();
+  imu_misses_.clear();
+  for (Drive& d : drives_) {
+    d.misses.clear();
+    d.twins.clear();
+  }
   running_ = true;
 }
 
@@ -71,6 +78,7 @@ void BenchMaster::beginCycle() noexcept {
   ++cycle_;
   collecting_ = true;
   pdos_seen_ = {};
+  twin_seen_ = {};
   imu_seen_ = 0;
   if (!running_) return;
   if (cycle_ % heartbeat_period_ == 0) {
@@ -79,7 +87,26 @@ void BenchMaster::beginCycle() noexcept {
   pushAll(syncFrame());
 }
 
+// A bus does not give a node's own frames back to it: these came from somebody else.
+bool BenchMaster::isMasters(int bus, const CanFrame& f) const noexcept {
+  if (f.extended || f.remote) return false;
+  if (f.id == kCobNmt || f.id == kCobSync) return true;
+  const auto node = static_cast<int>(f.id & 0x7FU);
+  const std::uint32_t function = f.id & 0x780U;
+  if (function == kCobHeartbeat) return node == config_.master_node;
+  const bool commands = function == kCobSdoToServer ||
+                        std::find(kCobRpdo.begin(), kCobRpdo.end(), function) != kCobRpdo.end();
+  if (!commands) return false;
+  if (node == config_.imu.node && bus == config_.imu.bus) return true;
+  return std::any_of(config_.drives.begin(), config_.drives.end(),
+                     [&](const DriveConfig& d) { return d.node == node && d.bus == bus; });
+}
+
 void BenchMaster::onFrame(int bus, const CanFrame& frame) noexcept {
+  if (running_ && isMasters(bus, frame)) {
+    foreign_ = frame;
+    return;
+  }
   FrameQueue& out = outbox(bus);
   for (int i = 0; i < kDriveCount; ++i) {
     const DriveConfig& d = config_.drives[static_cast<std::size_t>(i)];
@@ -112,9 +139,11 @@ void BenchMaster::readPdo(int i, int pdo, const CanFrame& frame) noexcept {
   if (in(torque_)) sample_.joint_torque[n] = scale.torque(torque_.field.getSigned(frame));
   if (in(position_)) sample_.joint_angle[n] = scale.angle(position_.field.getSigned(frame));
   if (in(velocity_)) sample_.joint_velocity[n] = scale.velocity(velocity_.field.getSigned(frame));
+  if (in(demand_)) drives_[n].demand = demand_.field.getSigned(frame);
   if (in(motor_position_)) {
     sample_.motor_angle[n] = scale.motorAngle(motor_position_.field.getSigned(frame));
   }
+  twin_seen_[n] = twin_seen_[n] || (pdos_seen_[n] & 1U << pdo) != 0;
   pdos_seen_[n] = static_cast<std::uint8_t>(pdos_seen_[n] | 1U << pdo);
 }
 
@@ -161,6 +190,8 @@ void BenchMaster::endCycle() noexcept {
   const auto all = static_cast<std::uint8_t>((1U << config_.inputs.size()) - 1);
   for (std::size_t i = 0; i < kDriveCount; ++i) {
     drives_[i].stale_cycles = pdos_seen_[i] == all ? 0 : drives_[i].stale_cycles + 1;
+    drives_[i].misses.add(pdos_seen_[i] != all);
+    drives_[i].twins.add(twin_seen_[i]);
     if (!motor_position_.field) {
       sample_.motor_angle[i] = sample_.joint_angle[i] +
                                sample_.joint_torque[i] / config_.drives[i].scaling.spring_stiffness;
@@ -176,6 +207,7 @@ void BenchMaster::endCycle() noexcept {
   } else {
     ++imu_stale_;
   }
+  imu_misses_.add(imu_stale_ != 0);
 }
 
 void BenchMaster::setGoal(DriveGoal goal) noexcept {
@@ -186,6 +218,16 @@ void BenchMaster::setGoal(int drive, DriveGoal goal) noexcept {
 }
 void BenchMaster::resetFault(int drive) noexcept {
   drives_[static_cast<std::size_t>(drive)].power.resetFault();
+}
+
+void BenchMaster::nmt(int drive, NmtCommand command) noexcept {
+  const DriveConfig& d = config_.drives[static_cast<std::size_t>(drive)];
+  outbox(d.bus).push(nmtFrame(command, d.node));
+}
+
+bool BenchMaster::ask(int drive, ObjectAddress object, bool urgent) noexcept {
+  const auto n = static_cast<std::size_t>(drive);
+  return links_[n].ask(object, urgent, outbox(config_.drives[n].bus));
 }
 
 bool BenchMaster::allDrives(DriveState state) const noexcept {

@@ -2,12 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hil/bench_config.hpp"
 #include "hil/bench_signals.hpp"
 #include "hil/cia402.hpp"
+#include "hil/doubt/miss_window.hpp"
 #include "hil/frame_queue.hpp"
 #include "hil/node_link.hpp"
 
@@ -47,6 +49,14 @@ class BenchMaster {
   /// One attempt to reset the fault that a drive has from before.
   void resetFault(int drive) noexcept;
 
+  /// An NMT command to one drive alone.
+  void nmt(int drive, NmtCommand command) noexcept;
+  /// Asks a drive for an object by SDO; see NodeLink::ask().
+  bool ask(int drive, ObjectAddress object, bool urgent) noexcept;
+  std::optional<NodeLink::Answer> takeAnswer(int drive) noexcept {
+    return links_[static_cast<std::size_t>(drive)].takeAnswer();
+  }
+
   FrameQueue& outbox(int bus) noexcept { return outbox_[static_cast<std::size_t>(bus)]; }
   int busCount() const noexcept { return static_cast<int>(outbox_.size()); }
   const BenchSample& sample() const noexcept { return sample_; }
@@ -57,13 +67,20 @@ class BenchMaster {
     int stale_cycles = 0;  ///< since the last complete set of its PDOs
     DrivePowerSequence power;
     std::int64_t sent_torque = 0;  ///< per mille
+    std::int64_t demand = 0;       ///< 6074, per mille; 0 where it is not mapped
+    MissWindow misses;             ///< cycles without a complete set
+    MissWindow twins;              ///< cycles with a PDO too many
   };
   const Drive& drive(int i) const noexcept { return drives_[static_cast<std::size_t>(i)]; }
   const NodeLink& link(int i) const noexcept { return links_[static_cast<std::size_t>(i)]; }
   static constexpr int kImuLink = kDriveCount;
   int imuStaleCycles() const noexcept { return imu_stale_; }
+  /// Cycles of the last ones without a new IMU sample.
+  int imuMisses() const noexcept { return imu_misses_.count(); }
   bool allDrives(DriveState state) const noexcept;
   /// PDOs whose length is not that of their mapping.
+  /// The last frame that only this master may send and somebody else did, since start().
+  const std::optional<CanFrame>& foreignFrame() const noexcept { return foreign_; }
   std::int64_t badPdos() const noexcept { return bad_pdos_; }
   /// PDOs that came after their cycle had ended; they count as missing there and for nothing later.
   std::int64_t latePdos() const noexcept { return late_pdos_; }
@@ -73,6 +90,7 @@ class BenchMaster {
     PdoField field;
     std::uint8_t pdo = 0;
   };
+  bool isMasters(int bus, const CanFrame& frame) const noexcept;
   void readPdo(int drive, int pdo, const CanFrame& frame) noexcept;
   void readImu(int pdo, const CanFrame& frame) noexcept;
   Input findInput(ObjectAddress object) const noexcept;
@@ -82,8 +100,11 @@ class BenchMaster {
   std::vector<NodeLink> links_;
   std::array<Drive, kDriveCount> drives_;
   std::array<std::uint8_t, kDriveCount> pdos_seen_{};  ///< in this cycle, a bit each
+  std::array<bool, kDriveCount> twin_seen_{};          ///< in this cycle
+  std::optional<CanFrame> foreign_;
   std::uint8_t imu_seen_ = 0;
   int imu_stale_ = 0;
+  MissWindow imu_misses_;
   std::uint16_t imu_counter_ = 0;
   std::uint16_t imu_pending_counter_ = 0;
   std::vector<FrameQueue> outbox_;
@@ -93,7 +114,7 @@ class BenchMaster {
   int heartbeat_period_ = 1;
   bool collecting_ = false;  ///< between beginCycle() and endCycle()
   std::int64_t bad_pdos_ = 0, late_pdos_ = 0;
-  Input status_, torque_, position_, velocity_, motor_position_;
+  Input status_, torque_, position_, velocity_, motor_position_, demand_;
 };
 
 }  // namespace ballbot

@@ -17,7 +17,8 @@ void requireNoTrouble(const BenchMaster& master) {
 
 }  // namespace
 
-void bringUp(Bench& bench, BenchIo& io, std::chrono::nanoseconds patience) {
+void bringUp(Bench& bench, BenchIo& io, std::chrono::nanoseconds patience,
+             const std::atomic<bool>* stop) {
   BenchMaster& master = bench.master();
   const auto cycle = std::chrono::nanoseconds(bench.config().cycle);
   // What was said before the reset, boot-up messages of switching on among it, is not for us.
@@ -31,10 +32,24 @@ void bringUp(Bench& bench, BenchIo& io, std::chrono::nanoseconds patience) {
       io.send();
     }
     requireNoTrouble(master);
+    if (stop != nullptr && stop->load()) {
+      throw InterruptedError("bench: stopped during set-up; no drive was switched on");
+    }
     if (!io.allUp()) throw LostParticipantError("bench", "bench: a CAN bus is down");
   }
   master.start();
   io.send();
+}
+
+void requireGoodEnd(const Bench& bench) {
+  if (!bench.torqueIsOff()) {
+    const std::string why = bench.faultText();
+    throw TorqueNotOffError("bench: " + bench.lastWord() +
+                            (why.empty() ? "" : "It had stopped: " + why));
+  }
+  if (bench.safety().state() == SafetyState::kFault) {
+    throw LostParticipantError("bench", "bench: stopped, torque is off: " + bench.faultText());
+  }
 }
 
 }  // namespace ballbot

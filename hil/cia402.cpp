@@ -100,7 +100,8 @@ std::uint16_t DrivePowerSequence::next(std::uint16_t statusword) noexcept {
 std::uint16_t DrivePowerSequence::hold() noexcept {
   const bool has_torque = last_ == kEnableOperation;
   if (goal_ == DriveGoal::kVoltageOff) last_ = kDisableVoltage;
-  if (goal_ == DriveGoal::kQuickStop) last_ = has_torque ? kQuickStopCommand : kDisableVoltage;
+  // To a drive without torque it is "disable voltage", so it may be said to one that is silent.
+  if (goal_ == DriveGoal::kQuickStop) last_ = kQuickStopCommand;
   if (goal_ == DriveGoal::kSwitchedOn && has_torque) last_ = kSwitchOn;
   return last_;
 }

@@ -11,6 +11,7 @@ namespace {
 constexpr std::int64_t kPdoOff = 0x80000000, kNoRtr = 0x40000000;
 constexpr std::int64_t kOnReception = 255, kEverySync = 1;
 constexpr std::int64_t kServoDrive = 0x00020192;
+constexpr std::int64_t kEmulatedDrive = 0xBA11, kEmulatedImu = 0xBA12;
 
 class Script {
  public:
@@ -24,6 +25,8 @@ class Script {
     add({kind, o, o, 0, value, what});
   }
   void add(const SetupStep& step) { steps.push_back(step); }
+  /// The step before is read back again and again: torque depends on it.
+  void watch() { steps.back().watched = true; }
   std::vector<SetupStep> steps;
 };
 
@@ -48,11 +51,20 @@ void setUpPdo(Script& s, bool transmit, int number, int node, const PdoMapping* 
   s.write(parameters, 1, 4, id, "PDO on");
 }
 
+// Between two steps nobody watches the time, and a drive holds what it was told last. Only drives
+// whose clock is SYNC may be told so.
+void requireEmulated(Script& s, const BenchConfig& bench, std::int64_t product) {
+  if (!bench.stepped) return;
+  s.require(SetupStep::Kind::kExpect, 0x1018, 2, product,
+            "product code (stepped: true is for emulated drives alone, real ones need false)");
+}
+
 void setUpHeartbeats(Script& s, const BenchConfig& bench) {
   s.write(0x1017, 0, 2, bench.drive_heartbeat_ms, "heartbeat period");
   s.write(0x1016, 1, 4,
           static_cast<std::int64_t>(bench.master_node) << 16 | bench.master_timeout_ms,
           "watch over the master");
+  s.watch();
 }
 
 }  // namespace
@@ -64,10 +76,13 @@ std::vector<SetupStep> driveSetup(const BenchConfig& bench, const DriveConfig& d
   const DriveScaling& scale = drive.scaling;
   Script s;
   s.require(Kind::kExpect, 0x1000, 0, kServoDrive, "device type of a CiA 402 servo drive");
+  requireEmulated(s, bench, kEmulatedDrive);
   s.require(Kind::kExpectBits, 0x6502, 0, supportedModeBit(mode), "supported drive modes");
   s.require(Kind::kExpect, 0x6076, 0, std::llround(1000 * scale.torque_reference),
             "rated torque in mNm");
+  s.watch();
   s.require(Kind::kExpect, 0x608F, 1, std::llround(scale.encoder_counts), "encoder increments");
+  s.watch();
   const std::int64_t limit = std::llround(1000 * drive.limits.torque / scale.torque_reference);
   s.require(Kind::kAtLeast, 0x6072, 0, limit, "max torque in per mille");
 
@@ -81,9 +96,11 @@ std::vector<SetupStep> driveSetup(const BenchConfig& bench, const DriveConfig& d
   setUpHeartbeats(s, bench);
   s.write(0x1029, 1, 1, 0, "behaviour without the master");
   s.write(0x6007, 0, 2, 1, "abort connection option");
+  s.watch();
   s.write(0x605A, 0, 2, 2, "quick stop option");
   s.write(0x605E, 0, 2, 2, "fault reaction option");
   s.write(0x6072, 0, 2, limit, "max torque");
+  s.watch();
   const std::int64_t ns = bench.cycle.count();
   if (ns % 100'000 == 0 && ns / 100'000 <= 255) {
     s.write(0x60C2, 2, 1, -4, "interpolation time index");
@@ -94,12 +111,14 @@ std::vector<SetupStep> driveSetup(const BenchConfig& bench, const DriveConfig& d
     s.write(0x2010, 2, 4, std::llround(1000 * drive.damping), "position loop damping");
   }
   s.add({Kind::kWrite, {0x6060, 0}, {0x6061, 0}, 1, mode, "mode of operation"});
+  s.watch();
   return s.steps;
 }
 
 std::vector<SetupStep> imuSetup(const BenchConfig& bench) {
   using Kind = SetupStep::Kind;
   Script s;
+  requireEmulated(s, bench, kEmulatedImu);
   s.require(Kind::kExpect, 0x2004, 1, std::llround(1e9 * bench.imu.accel_resolution),
             "accelerometer resolution in 1e-9 m/s^2");
   s.require(Kind::kExpect, 0x2004, 2, std::llround(1e9 * bench.imu.gyro_resolution),

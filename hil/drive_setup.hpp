@@ -22,6 +22,7 @@ struct SetupStep {
   std::uint8_t size = 4;
   std::int64_t value = 0;
   const char* what = "";  ///< for messages: "rated torque"
+  bool watched = false;   ///< read back again and again while the bench runs
 };
 
 /// What a drive is asked and told before it may have torque: it is the drive that was configured,

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include <fmt/format.h>
+
 #include "core/digest.hpp"
 #include "core/error.hpp"
 
@@ -42,7 +44,24 @@ void HilParticipant::enterInitializationMode(SimTime start) {
   adopt(sample, 0);
 }
 
+void HilParticipant::terminate() {
+  runner_.release();
+  runner_.requireGoodEnd();
+}
+
+void HilParticipant::requireShort(SimDuration step) const {
+  const SimDuration longest = runner_.bench().config().safety.watchdog_cycles * period_;
+  if (step <= longest) return;
+  runner_.release();
+  throw InputError(
+      fmt::format("hil: a step of {:.6g} ms, at most {:.6g} ms are made with one command "
+                  "(safety.command_watchdog_ms). The drives have been told to stop. "
+                  "docs/troubleshooting/bench-command.md",
+                  1e3 * toSeconds(step), 1e3 * toSeconds(longest)));
+}
+
 void HilParticipant::doStep(SimTime now, SimDuration step, const ActuatorCommand& command) {
+  requireShort(step);
   runner_.command((now - start_) / period_, toBench(command));
   const std::int64_t reached = (now + step - start_) / period_;
   while (cycle_ < reached) {

@@ -6,8 +6,9 @@
 namespace ballbot {
 
 /// Real drives (or emulated ones) in the plant's place: the bench as a participant of the step
-/// protocol. Its time is the number of bus cycles since the drives were enabled; a step may be any
-/// length, and the command that is in force when a cycle begins is the one that is sent.
+/// protocol. Its time is the number of bus cycles since the drives were enabled; the command that
+/// is in force when a cycle begins is the one that is sent. A step has a longest length: a command
+/// may not be in force for longer than the watchdog would let it.
 ///
 /// State cannot be saved: saveState() and restoreState() throw.
 class HilParticipant final : public Participant {
@@ -19,7 +20,8 @@ class HilParticipant final : public Participant {
   void enterInitializationMode(SimTime start) override;
   void exitInitializationMode() override {}
   void doStep(SimTime now, SimDuration step, const ActuatorCommand& command) override;
-  void terminate() override { runner_.release(); }
+  /// @throw TorqueNotOffError, LostParticipantError: a run whose way down failed has not passed.
+  void terminate() override;
   void reset() override { runner_.release(); }
   const SensorFrame& sensors() const override { return sensors_; }
   /// Nobody knows the truth about a real robot.
@@ -30,6 +32,7 @@ class HilParticipant final : public Participant {
   std::uint64_t stateDigest() const override { return digest_; }
 
  private:
+  void requireShort(SimDuration step) const;
   void adopt(const BenchSample& sample, std::int64_t cycle);
 
   BenchRunner& runner_;

@@ -66,6 +66,14 @@ void requireAllowed(const ExcitationPlan& plan, const DriveConfig& drive, double
 
 }  // namespace
 
+BenchConfig forIdentification(BenchConfig config) {
+  for (const DriveConfig& drive : config.drives) {
+    config.safety.torque_mismatch =
+        std::max(config.safety.torque_mismatch, 3 * drive.limits.torque);
+  }
+  return config;
+}
+
 Identification identifyDrive(BenchRunner& runner, const ExcitationPlan& plan,
                              const std::atomic<bool>* stop) {
   const BenchConfig& config = runner.bench().config();
@@ -102,6 +110,7 @@ Identification identifyDrive(BenchRunner& runner, const ExcitationPlan& plan,
     sample = &runner.sample(cycle + 1);
   }
   runner.release();
+  runner.requireGoodEnd();
   for (const int k : lines) {
     out.points.push_back({k / plan.record_s, line(output, k) / line(input, k)});
   }

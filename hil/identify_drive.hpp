@@ -26,6 +26,9 @@ struct Identification {
   double largest_torque = 0;  ///< commanded [N m]
 };
 
+/// The same bench for a drive whose response is not known yet: its torque is not compared with one.
+BenchConfig forIdentification(BenchConfig config);
+
 /// Excites one drive of a bench, all others at zero torque, and fits its torque response.
 /// @throw InputError if the plan exceeds the drive's torque limit or half the bus rate;
 ///        LostParticipantError if the bench stops; NumericalError if nothing can be fitted;

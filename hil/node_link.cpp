@@ -19,7 +19,7 @@ void NodeLink::expectBootUp(int patience_cycles) noexcept {
   waited_ = 0;
   patience_ = patience_cycles;
   step_ = 0;
-  seen_operational_ = false;
+  seen_operational_ = asking_ = false;
 }
 
 void NodeLink::start() noexcept {
@@ -110,6 +110,24 @@ void NodeLink::onCycle(FrameQueue& out) noexcept {
   ++waited_;
   if (phase_ == Phase::kBooting && waited_ > patience_) fail(NodeTrouble::kNoBootUp);
   if (phase_ == Phase::kRunning && waited_ > heartbeat_cycles_) fail(NodeTrouble::kHeartbeatLost);
+}
+
+bool NodeLink::ask(ObjectAddress object, bool urgent, FrameQueue& out) noexcept {
+  if (phase_ != Phase::kRunning) return false;
+  if (asking_ && (!urgent || sdo_.object() == object)) return false;
+  asking_ = true;
+  sdo_.upload(object, out);
+  return true;
+}
+
+std::optional<NodeLink::Answer> NodeLink::takeAnswer() noexcept {
+  if (!asking_ || sdo_.status() == SdoClient::Status::kBusy) return std::nullopt;
+  asking_ = false;
+  Answer answer{sdo_.object(), sdo_.status() == SdoClient::Status::kDone, 0};
+  if (answer.given) {
+    answer.value = getLittleEndian(sdo_.data(), sdo_.size() < 8 ? sdo_.size() : 8);
+  }
+  return answer;
 }
 
 std::string NodeLink::troubleText() const {

@@ -39,6 +39,17 @@ class NodeLink {
   bool onFrame(const CanFrame& frame, FrameQueue& out) noexcept;
   void onCycle(FrameQueue& out) noexcept;
 
+  /// Asks a running node for one object. One question at a time; false if one is open. An `urgent`
+  /// one takes the place of another that is open.
+  bool ask(ObjectAddress object, bool urgent, FrameQueue& out) noexcept;
+  struct Answer {
+    ObjectAddress object;
+    bool given = false;  ///< false: refused, or silence
+    std::uint64_t value = 0;
+  };
+  /// What came of the last question; once, and nothing while it is open.
+  std::optional<Answer> takeAnswer() noexcept;
+
   int node() const noexcept { return node_; }
   Phase phase() const noexcept { return phase_; }
   NodeTrouble trouble() const noexcept { return trouble_; }
@@ -60,7 +71,7 @@ class NodeLink {
   Phase phase_ = Phase::kIdle;
   NodeTrouble trouble_ = NodeTrouble::kNone;
   std::size_t step_ = 0;
-  bool reading_ = false;
+  bool reading_ = false, asking_ = false;
   std::int64_t found_ = 0;
   int waited_ = 0, patience_ = 0;
   bool seen_operational_ = false;

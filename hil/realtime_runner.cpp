@@ -15,11 +15,15 @@ constexpr std::size_t kCommands = 64, kSamples = 1024, kRecords = 8192;
 constexpr std::int64_t kLeadNs = 5'000'000;  // from starting the thread to its first deadline
 constexpr int kRestPatienceMs = 5000;
 constexpr long kNewsTimeoutNs = 20'000'000;
+// For a loop that is late on the way down, beyond the cycles that it takes.
+constexpr std::int64_t kDownMarginNs = 500'000'000;
 
 }  // namespace
 
-RealtimeRunner::RealtimeRunner(const BenchConfig& config, std::vector<CanBus*> buses)
-    : bench_(config),
+RealtimeRunner::RealtimeRunner(const BenchConfig& config, std::vector<CanBus*> buses,
+                               LoopClock* clock)
+    : clock_(clock != nullptr ? *clock : wall_clock_),
+      bench_(config),
       io_(bench_.master(), std::move(buses)),
       commands_(kCommands),
       samples_(kSamples),
@@ -34,7 +38,7 @@ RealtimeRunner::~RealtimeRunner() {
 
 void RealtimeRunner::finish() noexcept {
   release();
-  running_ = false;
+  running_ = false;  // from here on release() has nothing to wait for
   if (thread_.joinable()) thread_.join();
 }
 
@@ -55,10 +59,25 @@ void RealtimeRunner::throwIfFault() {
   throw LostParticipantError("bench", "bench: stopped: " + bench_.faultText());
 }
 
+void RealtimeRunner::throwIfStopped() {
+  if (!stopWanted()) return;
+  release();
+  requireGoodEnd();
+  throw InterruptedError("bench: stopped by a person; torque is off");
+}
+
+// What is to be said is the loop's until it has ended; a fault is latched, so nothing is lost by
+// it.
+void RealtimeRunner::requireGoodEnd() {
+  if (state_.load(std::memory_order_acquire) != SafetyState::kFault && down_) return;
+  finish();
+  ballbot::requireGoodEnd(bench_);
+}
+
 void RealtimeRunner::engage() {
   throwIfFault();
   if (!running_) {
-    bringUp(bench_, io_, std::chrono::nanoseconds(0));
+    bringUp(bench_, io_, std::chrono::nanoseconds(0), stop_);
     running_ = true;
     thread_ = std::thread([this] { loop(); });
   }
@@ -66,12 +85,13 @@ void RealtimeRunner::engage() {
   }
   want_stop_ = false;
   want_torque_ = true;
-  const std::int64_t begun = monotonicNs();
+  const std::int64_t begun = clock_.now();
   for (;;) {
     waitForNews();
     throwIfFault();
+    throwIfStopped();
     if (samples_.pop(last_)) return;
-    if (monotonicNs() - begun > kRestPatienceMs * 1'000'000LL) {
+    if (clock_.now() - begun > kRestPatienceMs * 1'000'000LL) {
       release();
       throw LostParticipantError(
           "bench", engage_refused_ ? "bench: the robot does not come to rest; not engaged"
@@ -88,9 +108,11 @@ const BenchSample& RealtimeRunner::sample(std::int64_t cycle) {
   while (last_.cycle < cycle) {
     if (samples_.pop(last_)) continue;
     throwIfFault();
+    throwIfStopped();
     waitForNews();
   }
   throwIfFault();
+  throwIfStopped();
   return last_.sample;
 }
 
@@ -98,11 +120,11 @@ void RealtimeRunner::release() noexcept {
   if (!running_) return;
   want_torque_ = false;
   want_stop_ = true;
-  const int longest = bench_.config().safety.damping_cycles + 40;
-  const std::int64_t until = monotonicNs() + longest * bench_.config().cycle.count();
-  while (monotonicNs() < until) {
+  const int longest = bench_.config().safety.damping_cycles + bench_.wayDown().longest() + 4;
+  const std::int64_t until = clock_.now() + longest * bench_.config().cycle.count() + kDownMarginNs;
+  while (clock_.now() < until) {
     const SafetyState state = state_;
-    if (state == SafetyState::kDisabled) break;
+    if (down_ && (state == SafetyState::kDisabled || state == SafetyState::kFault)) break;
     waitForNews();
   }
 }
@@ -110,15 +132,25 @@ void RealtimeRunner::release() noexcept {
 void RealtimeRunner::takeCommands() noexcept {
   bool fresh = false;
   while (commands_.pop(command_)) fresh = true;
-  const bool following = bench_.safety().action() == SafetyAction::kFollow;
-  if (fresh) wishes_.command = &command_;
-  wishes_.command_age = fresh || !following ? 0 : wishes_.command_age + 1;
-  if (!fresh && following) ++statistics_.commands_missing;
+  if (fresh) {
+    wishes_.command = &command_;
+    wishes_.command_number = ++command_number_;
+  } else if (bench_.safety().action() == SafetyAction::kFollow) {
+    ++statistics_.commands_missing;
+  }
+}
+
+// From SYNC to SYNC: a loop that woke late has let periods pass that its schedule has not skipped.
+int RealtimeRunner::periodsSinceLast(std::int64_t woke_ns) noexcept {
+  const std::int64_t period = bench_.config().cycle.count();
+  const std::int64_t since = last_woke_ns_ == 0 ? period : woke_ns - last_woke_ns_;
+  last_woke_ns_ = woke_ns;
+  return static_cast<int>(std::max<std::int64_t>(1, (since + period / 2) / period));
 }
 
 void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
   const BenchConfig& config = bench_.config();
-  const std::int64_t woke = monotonicNs();
+  const std::int64_t woke = clock_.now();
   BenchMaster& master = bench_.master();
   io_.collect(std::chrono::steady_clock::time_point{});  // answers to the SYNC before: too late
   master.beginCycle();
@@ -127,7 +159,7 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
   io_.collect(std::chrono::steady_clock::time_point(std::chrono::nanoseconds(deadline_ns) +
                                                     config.realtime.collect));
   master.endCycle();
-  bench_.observe(skipped_now_);
+  bench_.observe(periodsSinceLast(woke) - 1);
 
   const bool torque = bench_.safety().state() == SafetyState::kEnabled;
   if (!torque) session_cycle_ = -1;
@@ -137,7 +169,7 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
     ::sem_post(&news_);
   }
 
-  sleepUntilNs(deadline_ns + config.realtime.act.count());
+  clock_.sleepUntil(deadline_ns + config.realtime.act.count());
   takeCommands();
   wishes_.prepare = true;
   wishes_.engage = want_torque_;
@@ -147,7 +179,7 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
   if (!torque) wishes_.command = nullptr;  // commands that come too early are refused
   bench_.actuate(wishes_);
   io_.send();
-  const std::int64_t acted = monotonicNs();
+  const std::int64_t acted = clock_.now();
 
   statistics_.wake.add(woke - deadline_ns);
   statistics_.act.add(acted - deadline_ns);
@@ -157,6 +189,7 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
   record.act_late_ns = static_cast<std::int32_t>(acted - deadline_ns - config.realtime.act.count());
   if (!records_.push(record)) ++statistics_.records_lost;
   engage_refused_ = bench_.safety().engageRefused();
+  down_ = bench_.isDown();
   if (state_.exchange(bench_.safety().state(), std::memory_order_release) !=
       bench_.safety().state()) {
     ::sem_post(&news_);
@@ -164,12 +197,12 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
 }
 
 void RealtimeRunner::loop() noexcept {
-  statistics_.grant = becomeRealtime(bench_.config().realtime.priority);
-  DeadlineSchedule schedule(monotonicNs() + kLeadNs, bench_.config().cycle.count());
+  statistics_.grant = clock_.prepareThread(bench_.config().realtime.priority);
+  DeadlineSchedule schedule(clock_.now() + kLeadNs, bench_.config().cycle.count());
   while (running_) {
-    sleepUntilNs(schedule.deadline());
+    clock_.sleepUntil(schedule.deadline());
     cycle(schedule.deadline());
-    skipped_now_ = static_cast<int>(schedule.advance(monotonicNs()));
+    skipped_now_ = static_cast<int>(schedule.advance(clock_.now()));
     const auto last = static_cast<int>(statistics_.misses.size()) - 1;
     if (skipped_now_ > 0) {
       ++statistics_.misses[static_cast<std::size_t>(std::min(skipped_now_, last))];
@@ -177,6 +210,7 @@ void RealtimeRunner::loop() noexcept {
   }
   statistics_.overruns = schedule.overruns();
   statistics_.skipped = schedule.skipped();
+  clock_.leaveThread();
 }
 
 }  // namespace ballbot

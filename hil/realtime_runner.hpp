@@ -12,6 +12,7 @@
 #include "hil/bench_runner.hpp"
 #include "hil/deadline_schedule.hpp"
 #include "hil/jitter_histogram.hpp"
+#include "hil/loop_clock.hpp"
 #include "hil/realtime_thread.hpp"
 #include "hil/spsc_ring.hpp"
 
@@ -28,17 +29,21 @@ namespace ballbot {
 /// had to skip has no sample, and the next one stands for it.
 class RealtimeRunner final : public BenchRunner {
  public:
-  RealtimeRunner(const BenchConfig& config, std::vector<CanBus*> buses);
+  /// @param clock  must outlive this; null: the machine's
+  RealtimeRunner(const BenchConfig& config, std::vector<CanBus*> buses, LoopClock* clock = nullptr);
   ~RealtimeRunner() override;
 
   void engage() override;
   void command(std::int64_t cycle, const BenchCommand& command) override;
   const BenchSample& sample(std::int64_t cycle) override;
   void release() noexcept override;
+  void requireGoodEnd() override;
   /// Only what does not change while the loop runs, or after it has ended.
   const Bench& bench() const override { return bench_; }
   const BenchIo& io() const { return io_; }
 
+  /// Somebody has asked for the way down, and the loop will see it in its next cycle.
+  bool stopAsked() const noexcept { return want_stop_; }
   /// Ends the loop, with the drives off. Afterwards the statistics may be read.
   void finish() noexcept;
   struct Statistics {
@@ -63,9 +68,13 @@ class RealtimeRunner final : public BenchRunner {
   void loop() noexcept;
   void cycle(std::int64_t deadline_ns) noexcept;
   void takeCommands() noexcept;
+  int periodsSinceLast(std::int64_t woke_ns) noexcept;
   bool waitForNews() noexcept;
   void throwIfFault();
+  void throwIfStopped();
 
+  LoopClock wall_clock_;
+  LoopClock& clock_;
   Bench bench_;
   BenchIo io_;
   std::thread thread_;
@@ -75,13 +84,14 @@ class RealtimeRunner final : public BenchRunner {
   sem_t news_{};
   std::atomic<bool> running_{false}, want_torque_{false}, want_stop_{false};
   std::atomic<SafetyState> state_{SafetyState::kDisabled};
-  std::atomic<bool> engage_refused_{false};
+  std::atomic<bool> engage_refused_{false}, down_{true};
 
   // Of the loop's thread.
   Bench::Wishes wishes_;
   BenchCommand command_;
-  std::int64_t session_cycle_ = -1;
+  std::int64_t session_cycle_ = -1, command_number_ = 0;
   int skipped_now_ = 0;
+  std::int64_t last_woke_ns_ = 0;
   Statistics statistics_;
 
   // Of the thread that commands.

@@ -2,46 +2,6 @@
 
 namespace ballbot {
 
-const char* toText(BenchFault fault) noexcept {
-  switch (fault) {
-    case BenchFault::kNone:
-      return "none";
-    case BenchFault::kCommandTimeout:
-      return "no command from the controller";
-    case BenchFault::kCommandNotFinite:
-      return "command is not finite";
-    case BenchFault::kCommandGains:
-      return "command asks for gains the drives do not have";
-    case BenchFault::kVelocityLimit:
-      return "velocity limit";
-    case BenchFault::kPositionLimit:
-      return "position limit";
-    case BenchFault::kTiltLimit:
-      return "tilt limit";
-    case BenchFault::kImuStale:
-      return "no new IMU samples";
-    case BenchFault::kLateLoop:
-      return "the loop is late";
-    case BenchFault::kDriveFault:
-      return "a drive is in fault";
-    case BenchFault::kDriveDroppedOut:
-      return "a drive left operation enabled";
-    case BenchFault::kDriveTransition:
-      return "a drive does not follow its state commands";
-    case BenchFault::kDriveStale:
-      return "a drive's PDOs are missing";
-    case BenchFault::kNodeTrouble:
-      return "a node failed on the network";
-    case BenchFault::kEncoderImplausible:
-      return "an encoder's position and velocity disagree";
-    case BenchFault::kSensorNotFinite:
-      return "a measurement is not finite";
-    case BenchFault::kBusDown:
-      return "a bus is down";
-  }
-  return "unknown";
-}
-
 const char* toText(SafetyState state) noexcept {
   switch (state) {
     case SafetyState::kDisabled:

@@ -2,35 +2,9 @@
 
 #include <cstdint>
 
-namespace ballbot {
+#include "hil/bench_fault.hpp"
 
-/// What can end a run on the bench. docs/hil.md has the table with each one's reaction.
-enum class BenchFault : std::uint8_t {
-  kNone,
-  // The robot can still be controlled: bounded damping, then torque off.
-  kCommandTimeout,
-  kCommandNotFinite,
-  kCommandGains,
-  kVelocityLimit,
-  kPositionLimit,
-  kTiltLimit,
-  kImuStale,
-  kLateLoop,
-  // It cannot: torque off at once, in all six.
-  kDriveFault,
-  kDriveDroppedOut,
-  kDriveTransition,
-  kDriveStale,
-  kNodeTrouble,
-  kEncoderImplausible,
-  kSensorNotFinite,
-  kBusDown,
-};
-const char* toText(BenchFault fault) noexcept;
-/// Whether the bench damps the robot's motion before it takes the torque away.
-constexpr bool dampsFirst(BenchFault fault) noexcept {
-  return fault != BenchFault::kNone && fault < BenchFault::kDriveFault;
-}
+namespace ballbot {
 
 enum class SafetyState : std::uint8_t {
   kDisabled,  ///< no voltage

@@ -1,17 +1,19 @@
 #include "hil/stepped_runner.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/error.hpp"
-#include "hil/bring_up.hpp"
 
 namespace ballbot {
 namespace {
 
 // The robot may still swing when a session begins; then the bench waits for rest so long.
 constexpr int kRestPatience = 400;
-// After the last torque: until the drives have confirmed that they are off.
-constexpr int kFarewellCycles = 4;
+// While answers are missing nobody waits for them as long as for the first one.
+constexpr std::chrono::milliseconds kShortPatience{50};
+// Wall-clock time for the way down while drives answer, and what each cycle gets after it.
+constexpr std::chrono::milliseconds kDownBudget{2000}, kLastPatience{5};
 
 }  // namespace
 
@@ -21,10 +23,19 @@ SteppedRunner::SteppedRunner(const BenchConfig& config, std::vector<CanBus*> bus
 
 SteppedRunner::~SteppedRunner() { release(); }
 
+std::chrono::milliseconds SteppedRunner::patience() const noexcept {
+  const std::chrono::milliseconds now =
+      answers_missing_ ? std::min(patience_, kShortPatience) : patience_;
+  if (down_until_ == std::chrono::steady_clock::time_point{}) return now;
+  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+      down_until_ - std::chrono::steady_clock::now());
+  return std::max(kLastPatience, std::min(now, left));
+}
+
 void SteppedRunner::sense() noexcept {
   bench_.master().beginCycle();
   io_.send();
-  io_.collect(std::chrono::steady_clock::now() + patience_);
+  answers_missing_ = !io_.collect(std::chrono::steady_clock::now() + patience());
   bench_.master().endCycle();
   bench_.observe();
   actuated_ = false;
@@ -37,27 +48,39 @@ void SteppedRunner::actuate() noexcept {
   actuated_ = true;
 }
 
-// The clock stands still between calls, so the stop is carried to its end here.
-void SteppedRunner::throwIfFault() {
-  if (bench_.safety().state() != SafetyState::kFault) return;
+// The clock stands still between calls, so the way down is carried to its end here.
+void SteppedRunner::goDown() noexcept {
   wants_release_ = false;
   wishes_.command = nullptr;
-  while (bench_.safety().action() != SafetyAction::kNoVoltage) {
+  wishes_.stop = true;
+  down_until_ = std::chrono::steady_clock::now() + kDownBudget;
+  const int longest = bench_.config().safety.damping_cycles + bench_.wayDown().longest() + 4;
+  for (int i = 0; i < longest; ++i) {
+    if (!actuated_) actuate();
+    if (bench_.isDown()) break;
     sense();
-    actuate();
   }
-  for (int i = 0; i < kFarewellCycles; ++i) {
-    sense();
-    actuate();
-  }
-  throw LostParticipantError("bench", "bench: stopped, torque is off: " + bench_.faultText());
+  down_until_ = {};
+}
+
+void SteppedRunner::throwIfFault() {
+  if (bench_.safety().state() != SafetyState::kFault) return;
+  if (!bench_.isDown()) goDown();
+  requireGoodEnd();
+}
+
+void SteppedRunner::throwIfStopped() {
+  if (!stopWanted()) return;
+  release();
+  requireGoodEnd();
+  throw InterruptedError("bench: stopped by a person; torque is off");
 }
 
 void SteppedRunner::engage() {
   throwIfFault();
   wants_release_ = true;
   if (!running_) {
-    bringUp(bench_, io_, patience_ / 100);
+    bringUp(bench_, io_, patience_ / 100, stop_);
     running_ = true;
     sense();
   }
@@ -69,8 +92,10 @@ void SteppedRunner::engage() {
     wishes_.engage = bench_.safety().state() != SafetyState::kDisabled;
     if (!actuated_) actuate();
     throwIfFault();
+    throwIfStopped();
     if (bench_.safety().engageRefused() && ++waited > kRestPatience) {
       release();
+      requireGoodEnd();
       throw LostParticipantError("bench", "bench: the robot does not come to rest; not engaged");
     }
     sense();
@@ -82,6 +107,7 @@ void SteppedRunner::command(std::int64_t cycle, const BenchCommand& command) {
   if (cycle != cycle_ || actuated_) return;  // within a cycle only the first command can act
   command_ = command;
   wishes_.command = &command_;
+  wishes_.command_number = ++command_number_;
   actuate();
 }
 
@@ -91,6 +117,7 @@ const BenchSample& SteppedRunner::sample(std::int64_t cycle) {
     sense();
     ++cycle_;
     throwIfFault();
+    throwIfStopped();
   }
   throwIfFault();
   return bench_.master().sample();
@@ -98,16 +125,7 @@ const BenchSample& SteppedRunner::sample(std::int64_t cycle) {
 
 void SteppedRunner::release() noexcept {
   if (!running_ || !wants_release_) return;
-  wants_release_ = false;
-  wishes_.stop = true;
-  wishes_.command = nullptr;
-  int left = kFarewellCycles;
-  const int longest = bench_.config().safety.damping_cycles + 2 * kFarewellCycles;
-  for (int i = 0; i < longest && left > 0; ++i) {
-    if (!actuated_) actuate();
-    sense();
-    if (bench_.safety().action() == SafetyAction::kNoVoltage) --left;
-  }
+  goDown();
   wishes_ = {};
 }
 

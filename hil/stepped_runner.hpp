@@ -4,15 +4,18 @@
 
 #include "hil/bench_io.hpp"
 #include "hil/bench_runner.hpp"
+#include "hil/bring_up.hpp"
 
 namespace ballbot {
 
 /// Runs a bench whose clock is its own SYNC: nothing happens between two calls, every cycle waits
-/// for all answers, and equal commands give equal samples on any machine.
+/// for all answers, and equal commands give equal samples on any machine. For emulated drives: with
+/// real ones nothing would watch the time between two steps.
 class SteppedRunner final : public BenchRunner {
  public:
   /// The buses must outlive this.
-  /// @param patience  for the answers of one cycle; what has not come then counts as missing
+  /// @param patience  for the answers of one cycle; what has not come then counts as missing. After
+  ///                  a cycle with missing ones, and on the way down, the wait is shorter
   SteppedRunner(const BenchConfig& config, std::vector<CanBus*> buses,
                 std::chrono::milliseconds patience = std::chrono::seconds(5));
   ~SteppedRunner() override;
@@ -21,6 +24,7 @@ class SteppedRunner final : public BenchRunner {
   void command(std::int64_t cycle, const BenchCommand& command) override;
   const BenchSample& sample(std::int64_t cycle) override;
   void release() noexcept override;
+  void requireGoodEnd() override { ballbot::requireGoodEnd(bench_); }
   const Bench& bench() const override { return bench_; }
   const BenchIo& io() const { return io_; }
 
@@ -28,14 +32,20 @@ class SteppedRunner final : public BenchRunner {
   void sense() noexcept;
   void actuate() noexcept;
   void throwIfFault();
+  void throwIfStopped();
+  void goDown() noexcept;
+  std::chrono::milliseconds patience() const noexcept;
 
   Bench bench_;
   BenchIo io_;
   std::chrono::milliseconds patience_;
   Bench::Wishes wishes_;
   BenchCommand command_;
+  std::int64_t command_number_ = 0;
   std::int64_t cycle_ = 0;
   bool running_ = false, actuated_ = false;
+  bool answers_missing_ = false;                        ///< in the cycle before
+  std::chrono::steady_clock::time_point down_until_{};  ///< set on the way down: its wall-clock end
   bool wants_release_ = false;  ///< drives may have voltage that nobody has taken away yet
 };
 

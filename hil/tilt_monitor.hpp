@@ -12,9 +12,12 @@ class TiltMonitor {
   explicit TiltMonitor(double time_constant = 1.0) : time_constant_(time_constant) {}
 
   /// One IMU sample: specific force and angular velocity in B, `dt` after the one before [s].
-  void update(double dt, const std::array<double, 3>& accel, const std::array<double, 3>& gyro) noexcept;
+  void update(double dt, const std::array<double, 3>& accel,
+              const std::array<double, 3>& gyro) noexcept;
   /// Angle between the base's axis and the vertical [rad].
   double tilt() const noexcept;
+  /// The vertical in B, unit length.
+  const std::array<double, 3>& up() const noexcept { return up_; }
 
  private:
   double time_constant_;

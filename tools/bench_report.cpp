@@ -74,6 +74,9 @@ Report benchJson(const Bench& bench, const BenchIo& io) {
   out["cycles"] = bench.master().cycle();
   out["state"] = toText(bench.safety().state());
   out["fault"] = bench.faultText();
+  out["check"] = checkOf(bench.safety().fault()).name;
+  out["torque_off"] = bench.torqueIsOff();
+  out["last_word"] = bench.lastWord();
   out["saturated_cycles"] = bench.saturatedCycles();
   out["bad_pdos"] = bench.master().badPdos();
   out["late_pdos"] = bench.master().latePdos();
@@ -111,6 +114,8 @@ std::string benchText(const Report& r) {
   if (!r["fault"].get<std::string>().empty()) {
     out += fmt::format("fault: {}\n", r["fault"].get<std::string>());
   }
+  out += r["torque_off"].get<bool>() ? "torque: off, as every drive has said\n"
+                                     : r["last_word"].get<std::string>();
   int bus = 0;
   for (const Report& load : r["bus_load"]) {
     out += fmt::format("bus {}: load {:.0f} %, {:.0f} % with the most stuffing\n", bus++,

@@ -1,3 +1,4 @@
+#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,31 +30,56 @@ struct HilArguments {
   std::vector<std::string> overrides;
   std::string lcm_url = sharedLcmAddress().url, channel = sharedLcmAddress().channel;
   std::string record;
-  bool faults = false, check = false, keep_serving = false, json = false;
+  bool faults = false, checks = false, check = false, keep_serving = false, json = false;
+  int random = 0;
+  std::uint64_t seed = 1;
 };
 
-ExitCode showFaults(bool json) {
-  const std::vector<FaultRow> rows = rehearseFaults();
+ExitCode showRows(const std::vector<FaultRow>& rows, bool json) {
   bool held = true;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   if (!json) {
-    fmt::print("{:<4} {:<54} {:<26} {:>5} {:>6}  {}\n", "", "fault", "expected", "bound", "cycles",
-               "what the bench said");
+    fmt::print("{:<4} {:<62} {:<10} {:<26} {:>5} {:>6} {:>4}  {}\n", "", "fault", "runner",
+               "expected", "bound", "cycles", "exit", "what the bench said");
   }
   for (const FaultRow& r : rows) {
     held = held && r.held;
     list.push_back({{"name", r.fault},
+                    {"runner", toText(r.runner)},
                     {"expected", r.expected},
                     {"bound_cycles", r.bound_cycles},
                     {"measured_cycles", r.measured_cycles},
+                    {"check", r.check},
                     {"reason", r.reason},
+                    {"exit_code", r.exit_code},
+                    {"says_off", r.says_off},
+                    {"torque_on", r.torque_on},
                     {"held", r.held}});
     if (json) continue;
-    fmt::print("{:<4} {:<54} {:<26} {:>5} {:>6}  {}\n", r.held ? "ok" : "MISS", r.fault, r.expected,
-               r.bound_cycles, r.measured_cycles, r.reason);
+    fmt::print("{:<4} {:<62} {:<10} {:<26} {:>5} {:>6} {:>4}  {}\n", r.held ? "ok" : "MISS",
+               r.fault, toText(r.runner), r.expected, r.bound_cycles, r.measured_cycles,
+               r.exit_code, r.reason);
   }
   if (json) fmt::print("{}\n", jsonText(nlohmann::ordered_json{{"rows", list}, {"held", held}}));
   return held ? ExitCode::kPassed : ExitCode::kRequirementMissed;
+}
+
+ExitCode showChecks(bool json) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Check& c : checkTable()) {
+    if (c.fault == BenchFault::kNone) continue;
+    const bool damps = c.reaction == FirstReaction::kDamp;
+    list.push_back({{"name", c.name},
+                    {"words", c.words},
+                    {"reaction", damps ? "damping, then torque off" : "torque off"},
+                    {"bound_cycles", c.bound_cycles},
+                    {"page", c.page}});
+    if (json) continue;
+    fmt::print("{:<20} {:<76} {:<25} {:>4}  {}\n", c.name, c.words,
+               damps ? "damping, then torque off" : "torque off", c.bound_cycles, c.page);
+  }
+  if (json) fmt::print("{}\n", jsonText(nlohmann::ordered_json{{"checks", list}}));
+  return ExitCode::kPassed;
 }
 
 void requireFreeAddress(const LcmAddress& address) {
@@ -85,7 +111,14 @@ ExitCode showBench(const HilArguments& a) {
   return allGood(nodes) ? ExitCode::kPassed : ExitCode::kRequirementMissed;
 }
 
-ServeReport serveRunner(BenchRunner& runner, const HilArguments& a, std::uint64_t digest) {
+/// How serving ended, an exception included: whatever it was, the bench is brought down and
+/// reported first.
+struct Ending {
+  ServeReport served;
+  std::exception_ptr lost;
+};
+
+Ending serveRunner(BenchRunner& runner, const HilArguments& a, std::uint64_t digest) {
   HilParticipant participant(runner);
   LcmTransport transport({a.lcm_url, a.channel}, LinkEnd::kParticipant);
   ServeOptions options;
@@ -93,7 +126,31 @@ ServeReport serveRunner(BenchRunner& runner, const HilArguments& a, std::uint64_
   options.stop = interruptFlag();
   options.keep_serving = a.keep_serving;
   options.say = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
-  return serve(participant, transport, options);
+  runner.setStopFlag(options.stop);
+  Ending ending;
+  try {
+    ending.served = serve(participant, transport, options);
+  } catch (...) {
+    ending.lost = std::current_exception();
+  }
+  runner.release();
+  return ending;
+}
+
+/// The last word of a run: what is still dangerous first, then why it stopped, then how it ended.
+ExitCode conclude(const Bench& bench, const Ending& ending) {
+  if (!bench.torqueIsOff()) throw TorqueNotOffError("hil: " + bench.lastWord());
+  const std::string fault = bench.faultText();
+  if (!fault.empty()) {
+    throw LostParticipantError("bench", fmt::format("hil: {}. docs/troubleshooting/{}", fault,
+                                                    checkOf(bench.safety().fault()).page));
+  }
+  if (ending.lost) std::rethrow_exception(ending.lost);
+  if (ending.served.end == ServeEnd::kInterrupted) return ExitCode::kInterrupted;
+  if (ending.served.end == ServeEnd::kAborted) {
+    throw LostParticipantError("controller", "hil: the controller gave up; torque is off");
+  }
+  return ExitCode::kPassed;
 }
 
 ExitCode serveBench(const HilArguments& a) {
@@ -103,29 +160,26 @@ ExitCode serveBench(const HilArguments& a) {
   const OpenBuses buses(config);
   fmt::print(stderr,
              "hil: this program is no emergency stop. Keep the hardware one (STO) within reach.\n");
-  nlohmann::ordered_json report;
-  ServeReport served;
-  std::string fault;
+  const auto report = [&](const nlohmann::ordered_json& j) {
+    fmt::print("{}", a.json ? jsonText(j) + "\n" : benchText(j));
+  };
   if (config.stepped) {
     SteppedRunner runner(config, buses.ends);
-    served = serveRunner(runner, a, digest);
-    runner.release();
-    fault = runner.bench().faultText();
-    report = benchJson(runner.bench(), runner.io());
-  } else {
-    RealtimeRunner runner(config, buses.ends);
-    {
-      RecordWriter writer(runner.records(), a.record);
-      served = serveRunner(runner, a, digest);
-      runner.finish();
-    }
-    fault = runner.bench().faultText();
-    report = benchJson(runner.bench(), runner.io());
-    report["realtime"] = realtimeJson(runner.statistics());
+    const Ending ending = serveRunner(runner, a, digest);
+    report(benchJson(runner.bench(), runner.io()));
+    return conclude(runner.bench(), ending);
   }
-  fmt::print("{}", a.json ? jsonText(report) + "\n" : benchText(report));
-  if (!fault.empty()) throw LostParticipantError("bench", "hil: " + fault);
-  return served.end == ServeEnd::kInterrupted ? ExitCode::kInterrupted : ExitCode::kPassed;
+  RealtimeRunner runner(config, buses.ends);
+  Ending ending;
+  {
+    RecordWriter writer(runner.records(), a.record);
+    ending = serveRunner(runner, a, digest);
+    runner.finish();
+  }
+  nlohmann::ordered_json j = benchJson(runner.bench(), runner.io());
+  j["realtime"] = realtimeJson(runner.statistics());
+  report(j);
+  return conclude(runner.bench(), ending);
 }
 
 }  // namespace
@@ -148,6 +202,13 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
                     "Ask every node what it is, change nothing, print a table and what disagrees");
   command->add_flag("--faults", a->faults,
                     "Try every fault on emulated drives in this process and print the table");
+  command
+      ->add_option("--random", a->random,
+                   "With --faults: so many random combinations of two or three of them instead")
+      ->check(CLI::Range(1, 1'000'000));
+  command->add_option("--seed", a->seed, "Of these combinations")->capture_default_str();
+  command->add_flag("--checks", a->checks,
+                    "Print what the bench checks: name, words, reaction, bound, page");
   command->add_flag("--json", a->json, "Print results as JSON");
   command->footer(
       "Example, three terminals:\n"
@@ -156,10 +217,16 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
       "  ballbot controller configs/scenarios/bench_balance.yaml\n"
       "Software is no emergency stop: docs/hil.md.\n"
       "Exit codes: 0 the run ended, 1 a fault did not end as it must (--faults), 2 bad input,\n"
-      "3 the bench stopped or the controller was lost, 130 interrupted.");
+      "3 a check of the bench fired or the controller was lost, 5 a drive has not said that its\n"
+      "torque is off: pull the switch that is named, 130 interrupted.");
   command->callback([&result, a] {
+    if (a->checks) {
+      result = showChecks(a->json);
+      return;
+    }
     if (a->faults) {
-      result = showFaults(a->json);
+      result = showRows(a->random > 0 ? rehearseRandomFaults(a->random, a->seed) : rehearseFaults(),
+                        a->json);
       return;
     }
     if (a->config.empty()) throw InputError("hil: give a bench file, e.g. configs/hil/bench.yaml");

@@ -96,7 +96,8 @@ IdentifiedScenario meaningOf(const Identification& found, const IdentifyArgument
 }
 
 ExitCode identifyOnBench(IdentifyArguments a) {
-  const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
+  const BenchConfig config =
+      forIdentification(readBenchConfig(loadBenchTree(a.config, a.overrides)));
   a.plan.drive = a.drive - 1;
   const ScenarioToChange scenario = scenarioToChange(a, config);
   std::vector<std::unique_ptr<CanBus>> owned;
@@ -111,6 +112,7 @@ ExitCode identifyOnBench(IdentifyArguments a) {
   } else {
     runner = std::make_unique<RealtimeRunner>(config, ends);
   }
+  runner->setStopFlag(interruptFlag());
   const std::string& name = config.drives[static_cast<std::size_t>(a.plan.drive)].name;
   fmt::print(stderr, "identify: {} gets up to {} Nm for {:.3g} s. Block its joint.\n", name,
              a.plan.amplitude_Nm + std::abs(a.plan.bias_Nm), a.plan.records * a.plan.record_s);
@@ -178,7 +180,7 @@ void addIdentifyCommand(CLI::App& program, ExitCode& result) {
       "    --scenario configs/scenarios/balance.yaml --out wheel.yaml\n"
       "  ballbot bode wheel.yaml\n"
       "Exit codes: 0 fitted, 2 bad input or no fit, 3 the bench stopped,\n"
-      "130 interrupted, with the drives off.");
+      "5 a drive has not said that its torque is off, 130 interrupted, with the drives off.");
   command->callback([&result, a] { result = identifyOnBench(*a); });
 }
 

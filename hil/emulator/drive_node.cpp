@@ -311,6 +311,7 @@ void DriveNode::refresh() {
   d.set(0x606C, rounded(s * feedback_.joint_velocity / joint, -kI32, kI32));
   d.set(0x60E4, 1, rounded(s * (feedback_.motor_angle - parameters_.offset) / motor, -kI32, kI32));
   d.set(0x6077, rounded(s * feedback_.joint_torque / per_mille, -kI16, kI16));
+  if (enabled() && powered()) wanted();  // 6074 follows the target at once
   d.set(0x6041, forced_status_ != 0 ? forced_status_ : statusword());
 }
 

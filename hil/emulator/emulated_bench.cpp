@@ -196,8 +196,9 @@ void EmulatedBench::readRobot() {
   }
   std::array<double, 3> gyro{s.gyro_WB_B[0], s.gyro_WB_B[1], s.gyro_WB_B[2]};
   if (lean_ != 0) {  // as if the base lay over to this angle and kept turning
-    accel = restForce(-lean_, 0);
-    gyro = {0, -10, 0};
+    const std::array<double, 3> rest = restForce(-lean_, 0);
+    accel = {rest[0] + accel[0], rest[1] + accel[1], rest[2]};
+    gyro[1] -= 10;
   }
   // An IMU samples while the robot still stands, too.
   imu_->setSample(s.imu_count + idle_syncs_, accel, gyro);

@@ -12,6 +12,8 @@ namespace {
 constexpr double kInertia = 0.05, kFriction = 0.2, kSpring = 350;
 constexpr double kLongestStep = 1e-4;  // of the joint's motion [s]
 constexpr std::int64_t kImuPeriod = 2'500'000;
+// Standard deviations of a sample, those of the robot's IMU.
+constexpr double kGyroNoise = 2.4e-3, kAccelNoise = 0.024;  // [rad/s], [m/s^2]
 
 }  // namespace
 
@@ -21,7 +23,14 @@ void JointRig::enterInitializationMode(SimTime start) {
   *this = JointRig(options_);
   sensors_.time = sensors_.imu_time = start;
   sensors_.imu_count = 1;
-  sensors_.accel_B << 0, 0, 9.81;
+  sampleImu();
+}
+
+void JointRig::sampleImu() {
+  const auto index = static_cast<std::uint64_t>(sensors_.imu_count);
+  const auto accel = accel_noise_.normals(index), gyro = gyro_noise_.normals(index);
+  sensors_.accel_B << kAccelNoise * accel[0], kAccelNoise * accel[1], 9.81;
+  sensors_.gyro_WB_B << kGyroNoise * gyro[0], kGyroNoise * gyro[1], kGyroNoise * gyro[2];
 }
 
 // Torque by the exact solution for a constant command; the joint by small explicit steps.
@@ -70,8 +79,10 @@ void JointRig::doStep(SimTime now, SimDuration step, const ActuatorCommand& c) {
   s.joint_torque = torque_;
   s.motor_angle = angle_ + torque_ / kSpring;
   const std::int64_t samples = toNs(s.time) / kImuPeriod + 1;
-  if (samples != s.imu_count) s.imu_time = s.time;
+  if (samples == s.imu_count) return;
+  s.imu_time = s.time;
   s.imu_count = samples;
+  sampleImu();
 }
 
 StateBlob JointRig::saveState() const {

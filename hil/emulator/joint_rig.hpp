@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/random.hpp"
 #include "cosim/participant.hpp"
 
 namespace ballbot {
@@ -19,7 +20,8 @@ struct JointRigOptions {
 ///   tau'' + 2 D w tau' + w^2 tau = w^2 tau_command(t - delay),  w = 2 pi bandwidth
 ///
 /// on an inertia of 0.05 kg m^2 with viscous friction 0.2 N m s/rad, or on a fixed link. Solved in
-/// closed form between commands, so that its response is known exactly. The IMU stands upright.
+/// closed form between commands, so that its response is known exactly. The IMU stands upright and
+/// has the noise of a real one, along z none: whoever reads it can tell gravity exactly.
 class JointRig final : public Participant {
  public:
   explicit JointRig(const JointRigOptions& options);
@@ -39,8 +41,10 @@ class JointRig final : public Participant {
 
  private:
   void advance(double dt, const JointVector& command);
+  void sampleImu();
 
   JointRigOptions options_;
+  RandomStream gyro_noise_{1, "rig.gyro_noise"}, accel_noise_{1, "rig.accel_noise"};
   SensorFrame sensors_;
   JointVector torque_ = JointVector::Zero(), torque_rate_ = JointVector::Zero();
   JointVector angle_ = JointVector::Zero(), velocity_ = JointVector::Zero();

@@ -1,12 +1,19 @@
 #include "hil/rehearsal/rehearsal.hpp"
 
-#include "core/error.hpp"
+#include <utility>
+
 #include "core/yaml_file.hpp"
-#include "hil/bring_up.hpp"
 #include "hil/emulator/joint_rig.hpp"
+#include "hil/realtime_runner.hpp"
+#include "hil/stepped_runner.hpp"
 
 namespace ballbot {
 namespace {
+
+// Until the drives have booted, have been set up and enabled, many times over.
+constexpr int kEngagePatience = 4000;
+constexpr std::chrono::milliseconds kMoment{2}, kWhile{500};
+constexpr std::uint32_t kSync = 0x080;
 
 EmulatorConfig emulatorFor(const BenchConfig& config) {
   EmulatorConfig e;
@@ -22,21 +29,11 @@ EmulatorConfig emulatorFor(const BenchConfig& config) {
   return e;
 }
 
-std::vector<std::unique_ptr<EmulatedBus>> makeBuses(EmulatedBench& drives, std::size_t count) {
-  std::vector<std::unique_ptr<EmulatedBus>> buses;
-  for (std::size_t i = 0; i < count; ++i) {
-    buses.push_back(std::make_unique<EmulatedBus>(drives, static_cast<int>(i)));
-  }
-  return buses;
-}
-
-std::vector<CanBus*> endsOf(const std::vector<std::unique_ptr<EmulatedBus>>& buses) {
-  std::vector<CanBus*> ends;
-  for (const auto& bus : buses) ends.push_back(bus.get());
-  return ends;
-}
-
 }  // namespace
+
+const char* toText(RunnerKind kind) noexcept {
+  return kind == RunnerKind::kStepped ? "stepped" : "real time";
+}
 
 BenchConfig Rehearsal::defaultConfig() {
   return readBenchConfig(
@@ -45,52 +42,162 @@ BenchConfig Rehearsal::defaultConfig() {
                 "rehearsal"));
 }
 
-Rehearsal::Rehearsal(const BenchConfig& config)
-    : config_(config),
+Rehearsal::Rehearsal(const BenchConfig& config, RunnerKind kind)
+    : kind_(kind),
+      config_(config),
       drives_(emulatorFor(config), std::make_unique<JointRig>(JointRigOptions{})),
-      bench_(config),
-      buses_(makeBuses(drives_, config.buses.size())),
-      io_(bench_.master(), endsOf(buses_)) {
+      torque_(drives_) {
+  config_.stepped = kind == RunnerKind::kStepped;
+  std::vector<CanBus*> ends;
+  for (int i = 0; i < static_cast<int>(config.buses.size()); ++i) {
+    buses_.push_back(std::make_unique<EmulatedBus>(drives_, i));
+    wires_.push_back(std::make_unique<TamperedBus>(*buses_.back()));
+    ends.push_back(wires_.back().get());
+  }
+  wires_[0]->beforeSend([this](const CanFrame& f) {
+    if (f.id == kSync) torque_.onCycleEnd();
+  });
+  if (kind == RunnerKind::kStepped) {
+    runner_ = std::make_unique<SteppedRunner>(config_, ends);
+  } else {
+    auto runner = std::make_unique<RealtimeRunner>(config_, ends, &clock_);
+    realtime_ = runner.get();
+    runner_ = std::move(runner);
+  }
+  runner_->setStopFlag(&stop_);
   drives_.powerOn();
+}
+
+Rehearsal::~Rehearsal() { finish(); }
+
+const Bench& Rehearsal::bench() const { return runner_->bench(); }
+
+void Rehearsal::note(const std::exception_ptr& error) {
+  ended_ = true;
+  try {
+    std::rethrow_exception(error);
+  } catch (const Error& e) {
+    if (why_.empty()) why_ = e.what();
+    exit_code_ = e.exitCode();
+  }
+}
+
+// Calls of the real-time runner wait for its loop, which waits for us.
+template <typename Call>
+void Rehearsal::inTheBackground(Call call) {
+  waiting_ = std::async(std::launch::async, std::move(call));
+}
+
+// Or the loop would run on for as long as a thread takes to start.
+void Rehearsal::awaitStop() {
+  for (int i = 0; i < kEngagePatience && !realtime_->stopAsked(); ++i) {
+    if (waiting_.wait_for(kMoment) == std::future_status::ready) return;
+  }
+}
+
+void Rehearsal::pump() {
+  if (clock_.loopWaits()) clock_.runCycle();
 }
 
 bool Rehearsal::engage() {
   try {
-    bringUp(bench_, io_, std::chrono::nanoseconds(0));
-  } catch (const LostParticipantError&) {
-    bench_.observe();
+    if (realtime_ == nullptr) {
+      runner_->engage();
+      return true;
+    }
+    inTheBackground([this] { runner_->engage(); });
+    for (int i = 0; i < kEngagePatience; ++i) {
+      if (waiting_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) break;
+      pump();
+      // Its first sample is on its way to the call: commands begin with this very cycle.
+      if (bench().safety().action() == SafetyAction::kFollow) waiting_.wait_for(kWhile);
+    }
+    waiting_.get();
+    return true;
+  } catch (const Error&) {
+    note(std::current_exception());
     return false;
   }
-  wishes_.prepare = wishes_.engage = true;
-  for (int i = 0; i < 3 * config_.safety.transition_cycles; ++i) {
-    cycle({});
-    if (bench_.safety().action() == SafetyAction::kFollow) return true;
-  }
-  return false;
 }
 
-void Rehearsal::cycle(const BenchCommand& command) {
-  bench_.master().beginCycle();
-  io_.send();
-  io_.collect(std::chrono::steady_clock::now());
-  bench_.master().endCycle();
-  bench_.observe();
-  wishes_.command = &command;
-  wishes_.bus_down = !io_.allUp();
-  bench_.actuate(wishes_);
-  io_.send();
+void Rehearsal::cycle(const BenchCommand* command) {
+  if (ended_) {
+    if (realtime_ != nullptr) {
+      pump();
+    } else {
+      cycleWithoutMaster();
+    }
+    return;
+  }
+  try {
+    if (command != nullptr) runner_->command(at_, *command);
+    if (realtime_ != nullptr) pump();
+    if (stop_ && realtime_ != nullptr) {  // its answer waits for the way down, which is pumped
+      ended_ = true;
+      inTheBackground([this] { runner_->sample(at_ + 1); });
+      awaitStop();
+      return;
+    }
+    const bool samples = realtime_ == nullptr ||
+                         bench().safety().state() == SafetyState::kEnabled ||
+                         bench().safety().state() == SafetyState::kFault;
+    if (samples) runner_->sample(++at_);
+  } catch (const Error&) {
+    note(std::current_exception());
+  }
+}
+
+void Rehearsal::interrupt() { stop_ = true; }
+
+void Rehearsal::cycleWithoutMaster() {
+  torque_.onCycleEnd();
+  for (int b = 0; b < static_cast<int>(buses_.size()); ++b) {
+    drives_.onFrame(b, CanFrame{kSync, false, false, 0, {}});
+    drives_.outbox(b).clear();
+  }
+}
+
+void Rehearsal::oversleep(int periods) {
+  clock_.oversleep(periods * config_.cycle.count());
+  for (int i = 0; i < periods; ++i) cycleWithoutMaster();
+}
+
+void Rehearsal::finish() {
+  if (finished_) return;
+  finished_ = true;
+  try {
+    if (realtime_ != nullptr) {
+      if (!waiting_.valid()) inTheBackground([this] { runner_->release(); });
+      awaitStop();
+      const int longest = config_.safety.damping_cycles + bench().wayDown().longest() + 8;
+      for (int i = 0; i < longest; ++i) {
+        if (waiting_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) break;
+        pump();
+        waiting_.wait_for(bench().isDown() ? kMoment : std::chrono::milliseconds(0));
+      }
+      clock_.letGo();
+      realtime_->finish();
+      waiting_.get();
+    } else {
+      runner_->release();
+    }
+    runner_->requireGoodEnd();
+  } catch (const Error&) {
+    note(std::current_exception());
+  }
+  if (realtime_ != nullptr) {
+    try {
+      runner_->requireGoodEnd();
+    } catch (const Error&) {  // graver than what a call had thrown before
+      note(std::current_exception());
+    }
+  }
+  torque_.onCycleEnd();
 }
 
 void Rehearsal::pullBus1() {
   buses_[1]->pull();
   drives_.inject({0, EmulatedFault::kFrozenBus, 3, 0});
-}
-
-void Rehearsal::cycleWithoutMaster() {
-  for (int b = 0; b < static_cast<int>(buses_.size()); ++b) {
-    drives_.onFrame(b, CanFrame{0x080, false, false, 0, {}});
-    drives_.outbox(b).clear();
-  }
 }
 
 }  // namespace ballbot

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 
+#include <Eigen/LU>
 #include <gmock/gmock.h>
 
 #include "controller/riccati_equation.hpp"

@@ -5,6 +5,7 @@
     tables.py estimation SCENARIO...    errors of the estimate, one run a row
     tables.py seeds                     what was required and measured over seeds, of `ballbot reproduce --seeds N --json` on stdin
     tables.py faults                    the table of `ballbot hil --faults --json`, read from stdin
+    tables.py checks                    that of `ballbot hil --checks --json`
 """
 import json
 import subprocess
@@ -87,10 +88,24 @@ def seeds():
 
 def faults():
     rows = json.load(sys.stdin)["rows"]
-    table(["fault", "reaction", "bound, cycles", "took"],
-          [[r["name"], r["expected"], str(r["bound_cycles"]), str(r["measured_cycles"])] for r in rows])
-    print(f"\n{len(rows)} faults, of which {sum(r['held'] for r in rows)} hold.")
+    took = {}
+    for r in rows:
+        took.setdefault(r["name"], {})[r["runner"]] = r
+    def cell(runs, runner):
+        r = runs.get(runner)
+        return "" if r is None else "on, and said" if r["torque_on"] else str(r["measured_cycles"])
+    table(["fault", "reaction", "bound, cycles", "stepped took", "real time took"],
+          [[name, (any_run := next(iter(runs.values())))["expected"], str(any_run["bound_cycles"]),
+            cell(runs, "stepped"), cell(runs, "real time")] for name, runs in took.items()])
+    print(f"\n{len(took)} faults in {len(rows)} trials, of which {sum(r['held'] for r in rows)} hold.")
+
+
+def checks():
+    table(["check", "the message begins with", "reaction", "bound, cycles", "page"],
+          [[f"`{c['name']}`", c["words"], c["reaction"], str(c["bound_cycles"]),
+            f"[{c['page'].removesuffix('.md')}](troubleshooting/{c['page']})"]
+           for c in json.load(sys.stdin)["checks"]])
 
 
 if __name__ == "__main__":
-    {"messages": messages, "rejected": rejected, "estimation": estimation, "seeds": seeds, "faults": faults}[sys.argv[1]](*sys.argv[2:])
+    {"messages": messages, "rejected": rejected, "estimation": estimation, "seeds": seeds, "faults": faults, "checks": checks}[sys.argv[1]](*sys.argv[2:])

@@ -56,7 +56,7 @@ struct Stand {
             "{node: 3}, {node: 4}, {node: 5}, {node: 6}], emulator: {buses: [{link: a}]}" +
                 extra + "}",
             "stand")),
-        config(readBenchConfig(tree)),
+        config(forIdentification(readBenchConfig(tree))),
         drives(readEmulatorConfig(tree), std::make_unique<JointRig>(rig)),
         bus(drives, 0),
         runner(config, {&bus}) {

@@ -10,7 +10,7 @@
 namespace ballbot {
 namespace {
 
-constexpr int kCases = 100;
+constexpr int kRandomStates = 100;
 
 class ContactMomentumTest : public ::testing::Test {
  protected:
@@ -19,7 +19,7 @@ class ContactMomentumTest : public ::testing::Test {
 
 // The equations of motion know nothing of H: whatever the drives do, and however the robot moves.
 TEST_F(ContactMomentumTest, ChangesByGravityAndByWhatPushesAlone) {
-  for (int i = 0; i < kCases; ++i) {
+  for (int i = 0; i < kRandomStates; ++i) {
     const RandomCase c = randomCase(i);
     const StateVector dx = dynamics.derivative(c.x, c.tau, c.lambda);
     const double step = 1e-4;
@@ -46,7 +46,7 @@ TEST_F(ContactMomentumTest, ChangesByGravityAndByWhatPushesAlone) {
 // By hand: sum over the bodies of p x m v + I w, for one that turns about P as a whole.
 TEST_F(ContactMomentumTest, IsThatOfTheBodiesOneByOne) {
   const RobotParameters& robot = dynamics.robot();
-  for (int i = 0; i < kCases; ++i) {
+  for (int i = 0; i < kRandomStates; ++i) {
     StateVector x = randomCase(i).x;
     // No wheel and no joint turns: v = r w x z for the ball, and one angular velocity for all.
     const Matrix3 R_WB = rotationFromYawPitchRoll(x[kYaw], x[kPitch], x[kRoll]);

@@ -17,7 +17,7 @@ class BenchFixture {
  public:
   explicit BenchFixture(const std::string& extra = "", const std::string& emulator = "{rig: {}, ")
       : tree_(parseYaml(yaml(extra, emulator), "bench.yaml")),
-        config(readBenchConfig(tree_)),
+        config(steady(readBenchConfig(tree_))),
         emulator_config(readEmulatorConfig(tree_)),
         drives(emulator_config, std::make_unique<JointRig>(JointRigOptions{})),
         bench(config) {
@@ -58,6 +58,7 @@ class BenchFixture {
     bench.master().endCycle();
     bench.observe(skipped);
     wishes.bus_down = !io->allUp();
+    ++wishes.command_number;  // as from a controller that commands in every cycle
     bench.actuate(wishes);
     io->send();
   }
@@ -73,6 +74,11 @@ class BenchFixture {
   }
 
  private:
+  /// Tests command what they like for as long as they like.
+  static BenchConfig steady(BenchConfig config) {
+    config.safety.command_repeats = 0;
+    return config;
+  }
   static std::string yaml(const std::string& extra, const std::string& emulator) {
     return "stepped: true\n"
            "buses: [{address: \"slcan:none\"}, {address: \"slcan:none\"}]\n"
