@@ -36,7 +36,7 @@ RobotSensing::RobotSensing(const Scenario& scenario)
     : release_(scenario.release), contact_force_(believedRobot(scenario), kContactForceBandwidth) {
   requireEveryImuSample(scenario);
   ConfigReader in(scenario.section("estimator"), "estimator");
-  estimator_ = makeEstimator(in, scenarioRobot(scenario));
+  estimator_ = makeEstimator(in, believedRobot(scenario));
 }
 
 void RobotSensing::update(const SensorFrame& frame) noexcept {

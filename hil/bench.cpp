@@ -284,6 +284,7 @@ void Bench::goDown(bool had_torque) noexcept {
     master_.setGoal(i, order.goal);
     if (order.nmt_stop) master_.nmt(i, NmtCommand::kStop);
     if (order.nmt_pre_operational) master_.nmt(i, NmtCommand::kPreOperational);
+    if ((order.nmt_stop || order.nmt_pre_operational) && asked_drive_ == i) asked_drive_ = -1;
     if (order.ask) master_.ask(i, kStatuswordObject, true);
   }
 }

@@ -223,6 +223,7 @@ void BenchMaster::resetFault(int drive) noexcept {
 void BenchMaster::nmt(int drive, NmtCommand command) noexcept {
   const DriveConfig& d = config_.drives[static_cast<std::size_t>(drive)];
   outbox(d.bus).push(nmtFrame(command, d.node));
+  links_[static_cast<std::size_t>(drive)].forgetQuestion();
 }
 
 bool BenchMaster::ask(int drive, ObjectAddress object, bool urgent) noexcept {

@@ -49,7 +49,7 @@ class BenchMaster {
   /// One attempt to reset the fault that a drive has from before.
   void resetFault(int drive) noexcept;
 
-  /// An NMT command to one drive alone.
+  /// An NMT command to one drive alone, whose open question is forgotten.
   void nmt(int drive, NmtCommand command) noexcept;
   /// Asks a drive for an object by SDO; see NodeLink::ask().
   bool ask(int drive, ObjectAddress object, bool urgent) noexcept;

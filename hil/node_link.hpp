@@ -42,6 +42,8 @@ class NodeLink {
   /// Asks a running node for one object. One question at a time; false if one is open. An `urgent`
   /// one takes the place of another that is open.
   bool ask(ObjectAddress object, bool urgent, FrameQueue& out) noexcept;
+  /// A node that changes its NMT state forgets what it was asked.
+  void forgetQuestion() noexcept { asking_ = false; }
   struct Answer {
     ObjectAddress object;
     bool given = false;  ///< false: refused, or silence

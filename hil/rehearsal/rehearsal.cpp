@@ -171,7 +171,11 @@ void Rehearsal::finish() {
       awaitStop();
       const int longest = config_.safety.damping_cycles + bench().wayDown().longest() + 8;
       for (int i = 0; i < longest; ++i) {
-        if (waiting_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) break;
+        // A call that has thrown does not wait for the way down, which is to end by cycles and not by
+        // letting go.
+        const bool answered =
+            waiting_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+        if (answered && bench().isDown()) break;
         pump();
         waiting_.wait_for(bench().isDown() ? kMoment : std::chrono::milliseconds(0));
       }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <gmock/gmock.h>
 

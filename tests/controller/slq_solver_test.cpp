@@ -183,7 +183,7 @@ TEST_F(SlqOnRobot, TheCostFallsMonotonicallyFromFiftyRandomStarts) {
   for (int i = 0; i < 50; ++i) {
     seed(solver);
     std::vector<double> costs;
-    const SlqReport report = solver.converge(problem_, start(i), 100, 1e-9, &costs);
+    const SlqReport report = solver.converge(problem_, start(i), 400, 1e-9, &costs);
     EXPECT_EQ(report.status, SlqStatus::kConverged) << "start " << i << ": " << slqStatusName(report.status);
     EXPECT_LT(costs.back(), report.terms.total() + 1e-9);
     for (std::size_t k = 1; k < costs.size(); ++k) {

@@ -31,8 +31,8 @@ TEST(FaultTable, IsTheSameEveryTime) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].measured_cycles, b[i].measured_cycles) << a[i].fault;
-    EXPECT_EQ(a[i].reason, b[i].reason);
-    EXPECT_EQ(a[i].exit_code, b[i].exit_code);
+    EXPECT_EQ(a[i].reason, b[i].reason) << a[i].fault << ", " << toText(a[i].runner);
+    EXPECT_EQ(a[i].exit_code, b[i].exit_code) << a[i].fault << ", " << toText(a[i].runner);
   }
 }
 
