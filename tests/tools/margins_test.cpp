@@ -48,7 +48,8 @@ TEST_F(Margins, TheRobotTakesTheGainThatTheLinearLoopTakes) {
 TEST_F(Margins, TheRobotTakesTheDelayThatTheLinearLoopTakes) {
   const double ticks = linear("wheel_delay_margin_ms") / 0.4;  // the drives' period
   EXPECT_FALSE(falls(fmt::format("delay_ticks: {}", std::lround(0.8 * ticks))));
-  EXPECT_TRUE(falls(fmt::format("delay_ticks: {}", std::lround(1.4 * ticks))));
+  // In between it swings, by 20 degrees at 1.4, and the plan's limits of tilt and wheel rates keep it up.
+  EXPECT_TRUE(falls(fmt::format("delay_ticks: {}", std::lround(1.7 * ticks))));
 }
 
 }  // namespace
