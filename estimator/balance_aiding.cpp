@@ -38,38 +38,40 @@ BalanceAiding::BalanceAiding(const RobotParameters& robot, const BalanceSettings
       settings_(settings),
       ball_height_moment_(robot.totalMass() * robot.ball.radius) {}
 
-ContactMomentum BalanceAiding::momentumNow(SimTime time, const JointHistory& joints,
-                                           const FilterState& x) const noexcept {
-  return contactMomentum(dynamics_, wholeBodyState(x, time, joints));
+void BalanceAiding::look(const StateVector& x) noexcept {
+  const GravityAboutContact gravity = gravityAboutContact(dynamics_, x.head<kPositionDim>());
+  moment_ = gravity.moment_W;
+  height_moment_ = gravity.height_moment;
 }
 
 void BalanceAiding::step(double h, SimTime time, const JointHistory& joints,
                          InformationFilter& filter) noexcept {
   if (!settings_.enabled) return;
-  ContactMomentum now = momentumNow(time, joints, filter.state());
+  StateVector x = wholeBodyState(filter.state(), time, joints);
+  const Eigen::Vector2d moment_before = moment_;
+  const double height_before = height_moment_;
+  look(x);
   if (begun_) {
     const Eigen::Vector2d& v = filter.state().v_WK_W;
-    const double rise = now.height_moment - height_moment_;  // of m z_C; v_K x m v_C has no more
+    const double rise = height_moment_ - height_before;  // of m z_C; v_K x m v_C has no more
     explained_ +=
-        0.5 * h * (moment_ + now.gravity_moment_W) - Eigen::Vector2d(v.y() * rise, -v.x() * rise);
+        0.5 * h * (moment_before + moment_) - Eigen::Vector2d(v.y() * rise, -v.x() * rise);
     elapsed_ += h;
   }
-  moment_ = now.gravity_moment_W;
-  height_moment_ = now.height_moment;
   if (begun_ && elapsed_ < settings_.window_s - h / 2) return;
 
   if (begun_) {
-    const double stiffness = dynamics_.robot().gravity * (now.height_moment - ball_height_moment_);
-    const Eigen::Vector2d unexplained = (now.momentum_W - momentum_ - explained_) / elapsed_;
+    const double stiffness = tiltStiffness();
+    const Eigen::Vector2d unexplained =
+        (contactMomentum(dynamics_, x) - momentum_ - explained_) / elapsed_;
     const double sigma = std::sqrt(2.0) * settings_.momentum_sigma / elapsed_ / stiffness;
     correct(unexplained / stiffness, sigma * sigma, filter);
-    now = momentumNow(time, joints, filter.state());
-    moment_ = now.gravity_moment_W;
-    height_moment_ = now.height_moment;
+    x = wholeBodyState(filter.state(), time, joints);
+    look(x);
   }
   begun_ = true;
   elapsed_ = 0;
-  momentum_ = now.momentum_W;
+  momentum_ = contactMomentum(dynamics_, x);
   explained_.setZero();
 }
 
@@ -80,8 +82,7 @@ void BalanceAiding::correct(const Eigen::Vector2d& tilt_W, double variance,
   const Eigen::Matrix2d P = tilt_by_attitude *
                             filter.covariance().block<3, 3>(kTanAttitude, kTanAttitude) *
                             tilt_by_attitude.transpose();
-  const double stiffness = dynamics_.robot().gravity * (height_moment_ - ball_height_moment_);
-  const double floor = std::pow(settings_.moment_sigma / stiffness, 2);
+  const double floor = std::pow(settings_.moment_sigma / tiltStiffness(), 2);
   Eigen::Matrix2d S = P;
   S.diagonal().array() += variance + floor;
   const bool pushed_before = pushed_;

@@ -41,8 +41,12 @@ class BalanceAiding {
   void restore(BlobReader& in);
 
  private:
-  ContactMomentum momentumNow(SimTime time, const JointHistory& joints,
-                              const FilterState& x) const noexcept;
+  /// By how much gravity's moment grows with a tilt about the ball's centre [N m/rad].
+  double tiltStiffness() const noexcept {
+    return dynamics_.robot().gravity * (height_moment_ - ball_height_moment_);
+  }
+  /// Gravity now.
+  void look(const StateVector& x) noexcept;
   void correct(const Eigen::Vector2d& tilt_W, double variance, InformationFilter& filter) noexcept;
 
   ReducedDynamics dynamics_;

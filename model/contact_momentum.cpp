@@ -4,24 +4,33 @@
 
 namespace ballbot {
 
-ContactMomentum contactMomentum(const ReducedDynamics& dynamics, const StateVector& x) {
-  const PositionVector q = x.head<kPositionDim>();
-  const double r = dynamics.robot().ball.radius;
-  const Matrix3 R_WB = rotationFromYawPitchRoll(q[kYaw], q[kPitch], q[kRoll]);
-  Eigen::Matrix<double, kVelocityDim, 2> N = Eigen::Matrix<double, kVelocityDim, 2>::Zero();
-  // Turning about x moves the ball centre, r above P, along -y; about y along x.
-  N(kBallVy, 0) = -r;
-  N(kBallVx, 1) = r;
-  N.middleRows<3>(kOmegaX) = R_WB.topRows<2>().transpose();
+namespace {
 
-  ContactMomentum out;
-  out.momentum_W = N.transpose() * (dynamics.massMatrix(q) * x.tail<kVelocityDim>());
-  StateVector at_rest = x;
-  at_rest.tail<kVelocityDim>().setZero();
-  out.gravity_moment_W =
-      -N.transpose() * dynamics.nonlinearEffects(q, at_rest.tail<kVelocityDim>());
-  out.height_moment = dynamics.energy(at_rest) / dynamics.robot().gravity;
-  return out;
+using RigidTurns = Eigen::Matrix<double, kVelocityDim, 2>;
+
+/// N(q): everything turns about x, or y, of W through P.
+RigidTurns rigidTurns(const RobotParameters& robot, const PositionVector& q) {
+  const Matrix3 R_WB = rotationFromYawPitchRoll(q[kYaw], q[kPitch], q[kRoll]);
+  RigidTurns N = RigidTurns::Zero();
+  // Turning about x moves the ball centre, r above P, along -y; about y along x.
+  N(kBallVy, 0) = -robot.ball.radius;
+  N(kBallVx, 1) = robot.ball.radius;
+  N.middleRows<3>(kOmegaX) = R_WB.topRows<2>().transpose();
+  return N;
+}
+
+}  // namespace
+
+Eigen::Vector2d contactMomentum(const ReducedDynamics& dynamics, const StateVector& x) {
+  const PositionVector q = x.head<kPositionDim>();
+  return rigidTurns(dynamics.robot(), q).transpose() *
+         (dynamics.massMatrix(q) * x.tail<kVelocityDim>());
+}
+
+GravityAboutContact gravityAboutContact(const ReducedDynamics& dynamics, const PositionVector& q) {
+  const VelocityVector h = dynamics.nonlinearEffects(q, VelocityVector::Zero());
+  return {-rigidTurns(dynamics.robot(), q).transpose() * h,
+          dynamics.potentialEnergy(q) / dynamics.robot().gravity};
 }
 
 }  // namespace ballbot

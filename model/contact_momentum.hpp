@@ -12,13 +12,16 @@ namespace ballbot {
 /// about horizontal axes: what a robot without a push does not do is fall or rise by itself. H is
 /// N(q)^T M(q) nu with the two motions N that turn robot and ball about P like one rigid body, S(q)
 /// N = 0.
-struct ContactMomentum {
-  Eigen::Vector2d momentum_W;        ///< H about the axes x and y of W through P [kg m^2/s]
-  Eigen::Vector2d gravity_moment_W;  ///< likewise [N m]
-  double height_moment;              ///< mass times height of the centre of mass [kg m]
-};
+///
+/// @return H about the axes x and y of W through P [kg m^2/s]
+/// @param x  whole-body state (q, nu). Free of allocation, as all of this.
+Eigen::Vector2d contactMomentum(const ReducedDynamics& dynamics, const StateVector& x);
 
-/// @param x  whole-body state (q, nu). Free of allocation.
-ContactMomentum contactMomentum(const ReducedDynamics& dynamics, const StateVector& x);
+/// What gravity does to H.
+struct GravityAboutContact {
+  Eigen::Vector2d moment_W;  ///< first moment x gravity, about x and y of W [N m]
+  double height_moment;      ///< mass times height of the centre of mass [kg m]
+};
+GravityAboutContact gravityAboutContact(const ReducedDynamics& dynamics, const PositionVector& q);
 
 }  // namespace ballbot

@@ -85,6 +85,13 @@ EndEffectorJacobian ReducedDynamics::endEffectorJacobian(const PositionVector& q
   return out.jacobian;
 }
 
+double ReducedDynamics::potentialEnergy(const PositionVector& q) const {
+  const Pass pass(*constants_, q, VelocityVector::Zero());
+  const double height_moment =
+      (pass.R_WB * pass.composite[0].first).z() + constants_->total_mass * constants_->ball_radius;
+  return constants_->gravity * height_moment;
+}
+
 double ReducedDynamics::energy(const StateVector& x) const {
   const VelocityVector nu = x.tail<kVelocityDim>();
   const Pass pass(*constants_, x.head<kPositionDim>(), nu);

@@ -92,6 +92,8 @@ class ReducedDynamics {
 
   /// Kinetic plus potential energy [J], zero potential at z = 0.
   double energy(const StateVector& x) const;
+  /// The potential part of it [J].
+  double potentialEnergy(const PositionVector& q) const;
 
  private:
   RobotParameters robot_;

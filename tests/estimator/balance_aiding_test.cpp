@@ -92,13 +92,12 @@ TEST(BalanceAiding, IsNeverSurerThanTheModelIsKnown) {
     Trial run(s);
     run.plant.sway_m = 0;  // so that nothing else tells the tilt
     run.until(10);
-    StateVector x = StateVector::Zero();
-    x.segment<3>(kArm1) = run.plant.robot().nominal_arm;
-    const ReducedDynamics dynamics(run.plant.robot());
-    const ContactMomentum m = contactMomentum(dynamics, x);
+    PositionVector q = PositionVector::Zero();
+    q.segment<3>(kArm1) = run.plant.robot().nominal_arm;
+    const RobotParameters& robot = run.plant.robot();
+    const double height_moment = gravityAboutContact(ReducedDynamics(robot), q).height_moment;
     const double stiffness =
-        run.plant.robot().gravity *
-        (m.height_moment - run.plant.robot().totalMass() * run.plant.robot().ball.radius);
+        robot.gravity * (height_moment - robot.totalMass() * robot.ball.radius);
     const double sigma = run.filter.estimate(run.plant.frame().time).sigma[2];
     const double known = s.balance.moment_sigma / stiffness;
     EXPECT_GT(sigma, 0.9 * known);

@@ -24,20 +24,21 @@ TEST_F(ContactMomentumTest, ChangesByGravityAndByWhatPushesAlone) {
     const StateVector dx = dynamics.derivative(c.x, c.tau, c.lambda);
     const double step = 1e-4;
     const auto slope = [&](double h) {
-      const ContactMomentum a = contactMomentum(dynamics, c.x - h * dx);
-      const ContactMomentum b = contactMomentum(dynamics, c.x + h * dx);
-      Vector3 rate;
-      rate << (b.momentum_W - a.momentum_W) / (2 * h),
-          (b.height_moment - a.height_moment) / (2 * h);
-      return rate;
+      const auto at = [&](const StateVector& x) {
+        Vector3 values;
+        values << contactMomentum(dynamics, x),
+            gravityAboutContact(dynamics, x.head<kPositionDim>()).height_moment;
+        return values;
+      };
+      return Vector3((at(c.x + h * dx) - at(c.x - h * dx)) / (2 * h));
     };
     const Vector3 rate = (4 * slope(step / 2) - slope(step)) / 3;
     const Eigen::Vector2d v = c.x.segment<2>(kPositionDim);
     const Vector3 p_WE = dynamics.endEffector(c.x).p_WE;
     const Vector3 arm_WP(p_WE.x() - c.x[kBallX], p_WE.y() - c.x[kBallY], p_WE.z());
-    const Eigen::Vector2d expected = contactMomentum(dynamics, c.x).gravity_moment_W -
-                                     Eigen::Vector2d(v.y() * rate.z(), -v.x() * rate.z()) +
-                                     arm_WP.cross(c.lambda).head<2>();
+    const Eigen::Vector2d expected =
+        gravityAboutContact(dynamics, c.x.head<kPositionDim>()).moment_W -
+        Eigen::Vector2d(v.y() * rate.z(), -v.x() * rate.z()) + arm_WP.cross(c.lambda).head<2>();
     const Eigen::Vector2d got = rate.head<2>();
     EXPECT_LT((got - expected).norm(), 1e-6 * (1 + expected.norm())) << "case " << i;
   }
@@ -77,11 +78,12 @@ TEST_F(ContactMomentumTest, IsThatOfTheBodiesOneByOne) {
     add(robot.arm[1].inertia, poses[2]);
     add(robot.lastLinkWithPayload(), poses[3]);
 
-    const ContactMomentum m = contactMomentum(dynamics, x);
-    EXPECT_LT((m.momentum_W - H.head<2>()).norm(), 1e-9 * (1 + H.norm())) << "case " << i;
-    EXPECT_NEAR(m.height_moment, height_moment, 1e-10);
+    const GravityAboutContact gravity = gravityAboutContact(dynamics, x.head<kPositionDim>());
+    EXPECT_LT((contactMomentum(dynamics, x) - H.head<2>()).norm(), 1e-9 * (1 + H.norm()))
+        << "case " << i;
+    EXPECT_NEAR(gravity.height_moment, height_moment, 1e-10);
     const Vector3 moment = first.cross(Vector3(0, 0, -robot.gravity));
-    EXPECT_LT((m.gravity_moment_W - moment.head<2>()).norm(), 1e-9) << "case " << i;
+    EXPECT_LT((gravity.moment_W - moment.head<2>()).norm(), 1e-9) << "case " << i;
   }
 }
 
