@@ -8,6 +8,7 @@
 
 #include "hil/canopen_codec.hpp"
 #include "hil/cia402.hpp"
+#include "hil/drive_setup.hpp"
 #include "hil/sdo_client.hpp"
 
 namespace ballbot {
@@ -111,6 +112,10 @@ void readDrive(Reader& reader, const DriveConfig& drive, const BenchConfig& conf
 }
 
 }  // namespace
+
+bool isEmulated(const NodeReport& node) noexcept {
+  return node.product == kEmulatedDrive || node.product == kEmulatedImu;
+}
 
 std::vector<NodeReport> checkBench(const BenchConfig& config, const std::vector<CanBus*>& buses,
                                    std::chrono::milliseconds patience) {

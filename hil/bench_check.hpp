@@ -28,6 +28,9 @@ struct NodeReport {
   std::vector<std::string> disagreements;
 };
 
+/// It says that it is one of the emulator's, which can hurt nobody.
+bool isEmulated(const NodeReport& node) noexcept;
+
 /// Asks every node of the bench what it is, by SDO uploads only: nothing is written, nothing is
 /// reset, no NMT command, no SYNC. Nodes that were running go on running.
 std::vector<NodeReport> checkBench(const BenchConfig& config, const std::vector<CanBus*>& buses,

@@ -196,6 +196,13 @@ void readRealtime(ConfigReader in, BenchConfig& c) {
   in.finish();
 }
 
+void readCommissioning(ConfigReader in, CommissioningConfig& c) {
+  c.arm_pose = in.numbersOr<3>("arm_pose_deg", {}, {-360, 360});
+  for (double& angle : c.arm_pose) angle *= kRadPerDeg;
+  c.torque_share = in.numberOr("torque_share", c.torque_share, {0.02, 0.5});
+  in.finish();
+}
+
 }  // namespace
 
 int BenchConfig::cyclesOf(int ms) const {
@@ -246,6 +253,7 @@ BenchConfig readBenchConfig(const ConfigNode& tree) {
   requireMapped(c, tree.where().source + ": ");
   if (in.has("safety")) readSafety(in.child("safety"), c.safety, c);
   if (in.has("realtime")) readRealtime(in.child("realtime"), c);
+  if (in.has("commissioning")) readCommissioning(in.child("commissioning"), c.commissioning);
   in.finish();
   return c;
 }

@@ -82,6 +82,12 @@ struct RealtimeConfig {
   SimDuration act{1'500'000};      ///< after SYNC: the command goes out
 };
 
+/// What commissioning is told: hil/commissioning/.
+struct CommissioningConfig {
+  std::array<double, 3> arm_pose{};  ///< joint angles at the arm's marks [rad]
+  double torque_share = 0.15;        ///< of each drive's torque limit
+};
+
 /// The bench as the adapter has it: buses, drives, IMU, limits.
 struct BenchConfig {
   SimDuration cycle{2'500'000};
@@ -99,6 +105,7 @@ struct BenchConfig {
   ImuConfig imu;
   SafetyConfig safety;
   RealtimeConfig realtime;
+  CommissioningConfig commissioning;
   std::string scenario_path;
   std::vector<std::string> overrides;  ///< of the scenario, "path=value"
 

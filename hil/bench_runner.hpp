@@ -15,6 +15,10 @@ class BenchRunner {
  public:
   virtual ~BenchRunner() = default;
 
+  /// Brings the network up, if it is not yet, and waits for the next sample. No drive is switched
+  /// on. Only before engage().
+  /// @throw LostParticipantError, InterruptedError as engage().
+  virtual const BenchSample& watch() = 0;
   /// Brings the drives up and enables them; on return sample() is that of cycle 0.
   /// @throw LostParticipantError "bench: ..." if that fails or the bench is in fault;
   ///        InterruptedError once the stop flag is set.

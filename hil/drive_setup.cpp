@@ -11,7 +11,6 @@ namespace {
 constexpr std::int64_t kPdoOff = 0x80000000, kNoRtr = 0x40000000;
 constexpr std::int64_t kOnReception = 255, kEverySync = 1;
 constexpr std::int64_t kServoDrive = 0x00020192;
-constexpr std::int64_t kEmulatedDrive = 0xBA11, kEmulatedImu = 0xBA12;
 
 class Script {
  public:

@@ -9,6 +9,9 @@
 
 namespace ballbot {
 
+/// Product codes (1018:02) of the emulator's nodes.
+constexpr std::uint32_t kEmulatedDrive = 0xBA11, kEmulatedImu = 0xBA12;
+
 /// One SDO transfer of a node's set-up, and what must come of it.
 struct SetupStep {
   enum class Kind {

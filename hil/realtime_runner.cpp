@@ -74,13 +74,28 @@ void RealtimeRunner::requireGoodEnd() {
   ballbot::requireGoodEnd(bench_);
 }
 
-void RealtimeRunner::engage() {
+void RealtimeRunner::start() {
   throwIfFault();
-  if (!running_) {
-    bringUp(bench_, io_, std::chrono::nanoseconds(0), stop_);
-    running_ = true;
-    thread_ = std::thread([this] { loop(); });
+  if (running_) return;
+  bringUp(bench_, io_, std::chrono::nanoseconds(0), stop_);
+  running_ = true;
+  thread_ = std::thread([this] { loop(); });
+}
+
+const BenchSample& RealtimeRunner::watch() {
+  watching_ = true;
+  start();
+  while (!samples_.pop(last_)) {
+    throwIfFault();
+    throwIfStopped();
+    waitForNews();
   }
+  return last_.sample;
+}
+
+void RealtimeRunner::engage() {
+  watching_ = false;
+  start();
   while (samples_.pop(last_)) {  // of an earlier session
   }
   want_stop_ = false;
@@ -167,11 +182,14 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
     session_cycle_ += 1 + (session_cycle_ >= 0 ? skipped_now_ : 0);
     samples_.push({session_cycle_, master.sample()});
     ::sem_post(&news_);
+  } else if (watching_) {
+    samples_.push({session_cycle_, master.sample()});
+    ::sem_post(&news_);
   }
 
   clock_.sleepUntil(deadline_ns + config.realtime.act.count());
   takeCommands();
-  wishes_.prepare = true;
+  wishes_.prepare = !watching_;
   wishes_.engage = want_torque_;
   wishes_.stop = want_stop_;
   wishes_.bus_down = !io_.allUp();

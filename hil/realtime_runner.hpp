@@ -33,6 +33,7 @@ class RealtimeRunner final : public BenchRunner {
   RealtimeRunner(const BenchConfig& config, std::vector<CanBus*> buses, LoopClock* clock = nullptr);
   ~RealtimeRunner() override;
 
+  const BenchSample& watch() override;
   void engage() override;
   void command(std::int64_t cycle, const BenchCommand& command) override;
   const BenchSample& sample(std::int64_t cycle) override;
@@ -65,6 +66,7 @@ class RealtimeRunner final : public BenchRunner {
     std::int64_t cycle = 0;
     BenchSample sample;
   };
+  void start();
   void loop() noexcept;
   void cycle(std::int64_t deadline_ns) noexcept;
   void takeCommands() noexcept;
@@ -83,6 +85,7 @@ class RealtimeRunner final : public BenchRunner {
   SpscRing<CycleRecord> records_;
   sem_t news_{};
   std::atomic<bool> running_{false}, want_torque_{false}, want_stop_{false};
+  std::atomic<bool> watching_{false};  ///< samples go out though no drive has voltage
   std::atomic<SafetyState> state_{SafetyState::kDisabled};
   std::atomic<bool> engage_refused_{false}, down_{true};
 

@@ -76,14 +76,27 @@ void SteppedRunner::throwIfStopped() {
   throw InterruptedError("bench: stopped by a person; torque is off");
 }
 
-void SteppedRunner::engage() {
+void SteppedRunner::start() {
   throwIfFault();
+  if (running_) return;
+  bringUp(bench_, io_, patience_ / 100, stop_);
+  running_ = true;
+  sense();
+}
+
+const BenchSample& SteppedRunner::watch() {
+  start();
+  wishes_ = {};
+  if (!actuated_) actuate();
+  sense();
+  throwIfFault();
+  throwIfStopped();
+  return bench_.master().sample();
+}
+
+void SteppedRunner::engage() {
   wants_release_ = true;
-  if (!running_) {
-    bringUp(bench_, io_, patience_ / 100, stop_);
-    running_ = true;
-    sense();
-  }
+  start();
   wishes_ = {};
   wishes_.prepare = true;
   int waited = 0;

@@ -20,6 +20,7 @@ class SteppedRunner final : public BenchRunner {
                 std::chrono::milliseconds patience = std::chrono::seconds(5));
   ~SteppedRunner() override;
 
+  const BenchSample& watch() override;
   void engage() override;
   void command(std::int64_t cycle, const BenchCommand& command) override;
   const BenchSample& sample(std::int64_t cycle) override;
@@ -29,6 +30,7 @@ class SteppedRunner final : public BenchRunner {
   const BenchIo& io() const { return io_; }
 
  private:
+  void start();
   void sense() noexcept;
   void actuate() noexcept;
   void throwIfFault();

@@ -20,6 +20,7 @@
 #include "tools/bench_report.hpp"
 #include "tools/bench_scenario.hpp"
 #include "tools/commands.hpp"
+#include "tools/commission_bench.hpp"
 #include "tools/interrupt.hpp"
 
 namespace ballbot {
@@ -29,7 +30,8 @@ struct HilArguments {
   std::string config;
   std::vector<std::string> overrides;
   std::string lcm_url = sharedLcmAddress().url, channel = sharedLcmAddress().channel;
-  std::string record;
+  std::string record, commissioning_record, person, without_commissioning;
+  bool commission = false, rehearse = false;
   bool faults = false, checks = false, check = false, keep_serving = false, json = false;
   int random = 0;
   std::uint64_t seed = 1;
@@ -153,14 +155,29 @@ ExitCode conclude(const Bench& bench, const Ending& ending) {
   return ExitCode::kPassed;
 }
 
+CommissionArguments commissionArguments(const HilArguments& a) {
+  return {a.config, a.commissioning_record, a.person, a.json};
+}
+
+ExitCode commissionOpened(const HilArguments& a) {
+  const ConfigNode tree = loadBenchTree(a.config, a.overrides);
+  const OpenBuses buses(readBenchConfig(tree));
+  return commissionBench(tree, commissionArguments(a), buses.ends);
+}
+
 ExitCode serveBench(const HilArguments& a) {
-  const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
+  const ConfigNode tree = loadBenchTree(a.config, a.overrides);
+  const BenchConfig config = readBenchConfig(tree);
   const std::uint64_t digest = configDigest64(loadBenchScenario(config, a.config));
   requireFreeAddress({a.lcm_url, a.channel});
   const OpenBuses buses(config);
   fmt::print(stderr,
              "hil: this program is no emergency stop. Keep the hardware one (STO) within reach.\n");
-  const auto report = [&](const nlohmann::ordered_json& j) {
+  const std::string commissioned = requireCommissioned(tree, config, commissionArguments(a),
+                                                       a.without_commissioning, buses.ends);
+  fmt::print(stderr, "hil: commissioned: {}\n", commissioned);
+  const auto report = [&](nlohmann::ordered_json j) {
+    j["commissioned"] = commissioned;
     fmt::print("{}", a.json ? jsonText(j) + "\n" : benchText(j));
   };
   if (config.stepped) {
@@ -200,6 +217,18 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
   command->add_option("--record", a->record, "Write every cycle to this CSV file (real time only)");
   command->add_flag("--check", a->check,
                     "Ask every node what it is, change nothing, print a table and what disagrees");
+  command->add_flag(
+      "--commission", a->commission,
+      "Find out, with the robot held and a person's hands, whether the bench is the\n"
+      "one its file describes; then sign a record. With --faults: every case that it\n"
+      "must find, on emulated drives");
+  command->add_flag("--rehearse", a->rehearse,
+                    "With --commission: show it on emulated drives, by an emulated person");
+  command->add_option("--person", a->person, "Who commissions, for the record");
+  command->add_option("--commissioning-record", a->commissioning_record,
+                      "The record; default: beside the bench file, NAME.commissioned.json");
+  command->add_option("--without-commissioning", a->without_commissioning,
+                      "Serve real drives without a record, for this reason in words");
   command->add_flag("--faults", a->faults,
                     "Try every fault on emulated drives in this process and print the table");
   command
@@ -216,12 +245,17 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
       "  ballbot hil configs/hil/bench.yaml\n"
       "  ballbot controller configs/scenarios/bench_balance.yaml\n"
       "Software is no emergency stop: docs/hil.md.\n"
-      "Exit codes: 0 the run ended, 1 a fault did not end as it must (--faults), 2 bad input,\n"
+      "Exit codes: 0 the run ended, 1 a fault did not end as it must (--faults), or\n"
+      "commissioning found something wrong, 2 bad input,\n"
       "3 a check of the bench fired or the controller was lost, 5 a drive has not said that its\n"
       "torque is off: pull the switch that is named, 130 interrupted.");
   command->callback([&result, a] {
     if (a->checks) {
       result = showChecks(a->json);
+      return;
+    }
+    if (a->commission && (a->faults || a->rehearse)) {
+      result = a->faults ? showCommissioningCases(a->json) : rehearseCommission(a->json);
       return;
     }
     if (a->faults) {
@@ -230,7 +264,7 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
       return;
     }
     if (a->config.empty()) throw InputError("hil: give a bench file, e.g. configs/hil/bench.yaml");
-    result = a->check ? showBench(*a) : serveBench(*a);
+    result = a->check ? showBench(*a) : a->commission ? commissionOpened(*a) : serveBench(*a);
   });
 }
 

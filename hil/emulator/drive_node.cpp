@@ -270,7 +270,7 @@ DriveOutput DriveNode::wanted() {
   limited_ = given != target;
   dictionary().set(0x6074, given);
   DriveOutput out;
-  out.torque = parameters_.sign * static_cast<double>(given) * per_mille;
+  out.torque = parameters_.sign * parameters_.torque_share * static_cast<double>(given) * per_mille;
   if (!position_mode) return out;
   const double turn = kTwoPi / static_cast<double>(parameters_.encoder_counts);
   out.position =
@@ -310,7 +310,8 @@ void DriveNode::refresh() {
   d.set(0x6064, rounded(s * (angle - parameters_.offset) / joint, -kI32, kI32));
   d.set(0x606C, rounded(s * feedback_.joint_velocity / joint, -kI32, kI32));
   d.set(0x60E4, 1, rounded(s * (feedback_.motor_angle - parameters_.offset) / motor, -kI32, kI32));
-  d.set(0x6077, rounded(s * feedback_.joint_torque / per_mille, -kI16, kI16));
+  d.set(0x6077,
+        rounded(s * feedback_.joint_torque / parameters_.torque_share / per_mille, -kI16, kI16));
   if (enabled() && powered()) wanted();  // 6074 follows the target at once
   d.set(0x6041, forced_status_ != 0 ? forced_status_ : statusword());
 }

@@ -44,6 +44,8 @@ class EmulatedBench {
   std::int64_t syncs() const { return syncs_; }
   /// The robot's time [s]; 0 until it begins.
   double robotSeconds() const;
+  /// The robot's time runs from now on, though no drive has been enabled yet.
+  void letRobotMove() { robot_runs_ = true; }
   const Participant& robot() const { return *robot_; }
   DriveNode& drive(int i) { return *drives_[static_cast<std::size_t>(i)]; }
   /// The largest torque demanded of a motor in the last cycle, ramps of stops included [N m].

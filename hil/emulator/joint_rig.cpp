@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "core/angle.hpp"
 #include "core/digest.hpp"
 #include "core/error.hpp"
@@ -11,6 +13,7 @@ namespace {
 
 constexpr double kInertia = 0.05, kFriction = 0.2, kSpring = 350;
 constexpr double kLongestStep = 1e-4;  // of the joint's motion [s]
+constexpr double kGravity = 9.81;      // [m/s^2]
 constexpr std::int64_t kImuPeriod = 2'500'000;
 // Standard deviations of a sample, those of the robot's IMU.
 constexpr double kGyroNoise = 2.4e-3, kAccelNoise = 0.024;  // [rad/s], [m/s^2]
@@ -29,8 +32,17 @@ void JointRig::enterInitializationMode(SimTime start) {
 void JointRig::sampleImu() {
   const auto index = static_cast<std::uint64_t>(sensors_.imu_count);
   const auto accel = accel_noise_.normals(index), gyro = gyro_noise_.normals(index);
-  sensors_.accel_B << kAccelNoise * accel[0], kAccelNoise * accel[1], 9.81;
+  sensors_.accel_B = kGravity * up_B_ + Vector3(kAccelNoise * accel[0], kAccelNoise * accel[1], 0);
   sensors_.gyro_WB_B << kGyroNoise * gyro[0], kGyroNoise * gyro[1], kGyroNoise * gyro[2];
+  sensors_.gyro_WB_B += Vector3(hands_.base_rate.data());
+}
+
+// The vertical stands still in the world, so it turns the other way in the base.
+void JointRig::turnBase(double dt) {
+  const Vector3 rate(hands_.base_rate.data());
+  const double angle = rate.norm() * dt;
+  if (angle == 0) return;
+  up_B_ = Eigen::AngleAxisd(-angle, rate.normalized()) * up_B_;
 }
 
 // Torque by the exact solution for a constant command; the joint by small explicit steps.
@@ -50,7 +62,9 @@ void JointRig::advance(double dt, const JointVector& command) {
       const double e = std::exp(-a * h);
       torque_[i] = command[i] + e * (x * (c + a * s) + v * s);
       torque_rate_[i] = e * (v * (c - a * s) - x * w * w * s);
-      if (options_.blocked) continue;
+      if (i == hands_.joint) velocity_[i] = hands_.joint_velocity;
+      if (i == hands_.joint) angle_[i] += h * velocity_[i];
+      if (options_.blocked || i == hands_.joint) continue;
       velocity_[i] += h / kInertia * (torque_[i] - kFriction * velocity_[i]);
       angle_[i] += h * velocity_[i];
     }
@@ -71,6 +85,7 @@ void JointRig::doStep(SimTime now, SimDuration step, const ActuatorCommand& c) {
     on_the_way_.erase(on_the_way_.begin());
   }
   advance(end - t, acting_);
+  turnBase(toSeconds(step));
 
   SensorFrame& s = sensors_;
   s.time = now + step;

@@ -12,10 +12,11 @@ namespace {
 
 // Until the drives have booted, have been set up and enabled, many times over.
 constexpr int kEngagePatience = 4000;
-constexpr std::chrono::milliseconds kMoment{2}, kWhile{500};
+constexpr std::chrono::milliseconds kMoment{2};
 constexpr std::uint32_t kSync = 0x080;
 
-EmulatorConfig emulatorFor(const BenchConfig& config) {
+EmulatorConfig emulatorFor(const BenchConfig& config,
+                           const std::function<void(EmulatorConfig&)>& change) {
   EmulatorConfig e;
   e.cycle = config.cycle;
   e.stepped = true;
@@ -26,6 +27,7 @@ EmulatorConfig emulatorFor(const BenchConfig& config) {
   }
   e.imu_bus = config.imu.bus;
   e.imu_node = config.imu.node;
+  if (change) change(e);
   return e;
 }
 
@@ -42,10 +44,17 @@ BenchConfig Rehearsal::defaultConfig() {
                 "rehearsal"));
 }
 
-Rehearsal::Rehearsal(const BenchConfig& config, RunnerKind kind)
+Rehearsal::Rehearsal(const BenchConfig& config, RunnerKind kind,
+                     const std::function<void(EmulatorConfig&)>& change)
+    : Rehearsal(config, kind, emulatorFor(config, change),
+                std::make_unique<JointRig>(JointRigOptions{})) {}
+
+Rehearsal::Rehearsal(const BenchConfig& config, RunnerKind kind, const EmulatorConfig& emulator,
+                     std::unique_ptr<JointRig> rig)
     : kind_(kind),
       config_(config),
-      drives_(emulatorFor(config), std::make_unique<JointRig>(JointRigOptions{})),
+      rig_(rig.get()),
+      drives_(emulator, std::move(rig)),
       torque_(drives_) {
   config_.stepped = kind == RunnerKind::kStepped;
   std::vector<CanBus*> ends;
@@ -62,6 +71,7 @@ Rehearsal::Rehearsal(const BenchConfig& config, RunnerKind kind)
   } else {
     auto runner = std::make_unique<RealtimeRunner>(config_, ends, &clock_);
     realtime_ = runner.get();
+    lockstep_ = std::make_unique<LockstepRunner>(*realtime_, clock_);
     runner_ = std::move(runner);
   }
   runner_->setStopFlag(&stop_);
@@ -101,18 +111,7 @@ void Rehearsal::pump() {
 
 bool Rehearsal::engage() {
   try {
-    if (realtime_ == nullptr) {
-      runner_->engage();
-      return true;
-    }
-    inTheBackground([this] { runner_->engage(); });
-    for (int i = 0; i < kEngagePatience; ++i) {
-      if (waiting_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) break;
-      pump();
-      // Its first sample is on its way to the call: commands begin with this very cycle.
-      if (bench().safety().action() == SafetyAction::kFollow) waiting_.wait_for(kWhile);
-    }
-    waiting_.get();
+    runner().engage();
     return true;
   } catch (const Error&) {
     note(std::current_exception());
@@ -171,8 +170,8 @@ void Rehearsal::finish() {
       awaitStop();
       const int longest = config_.safety.damping_cycles + bench().wayDown().longest() + 8;
       for (int i = 0; i < longest; ++i) {
-        // A call that has thrown does not wait for the way down, which is to end by cycles and not by
-        // letting go.
+        // A call that has thrown does not wait for the way down, which is to end by cycles and not
+        // by letting go.
         const bool answered =
             waiting_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
         if (answered && bench().isDown()) break;

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <memory>
 #include <string>
@@ -11,13 +12,13 @@
 #include "hil/bench_runner.hpp"
 #include "hil/emulator/emulated_bench.hpp"
 #include "hil/emulator/emulated_bus.hpp"
+#include "hil/emulator/joint_rig.hpp"
 #include "hil/rehearsal/lockstep_clock.hpp"
+#include "hil/rehearsal/lockstep_runner.hpp"
 #include "hil/rehearsal/tampered_bus.hpp"
 #include "hil/rehearsal/torque_watch.hpp"
 
 namespace ballbot {
-
-class RealtimeRunner;
 
 /// Which of the two runners a rehearsal tries.
 enum class RunnerKind { kStepped, kRealTime };
@@ -30,7 +31,9 @@ class Rehearsal {
  public:
   /// Three drives and the IMU on one bus, three drives on another.
   /// @param config  its buses and drives are used, its addresses are not
-  Rehearsal(const BenchConfig& config, RunnerKind kind);
+  /// @param change  of the emulated drives, which otherwise are as config says
+  Rehearsal(const BenchConfig& config, RunnerKind kind,
+            const std::function<void(EmulatorConfig&)>& change = {});
   ~Rehearsal();
 
   /// Two buses, six drives, the defaults of everything else.
@@ -63,8 +66,13 @@ class Rehearsal {
   EmulatedBench& drives() { return drives_; }
   TamperedBus& wire(int bus) { return *wires_[static_cast<std::size_t>(bus)]; }
   TorqueWatch& torque() { return torque_; }
+  JointRig& rig() { return *rig_; }
+  /// For whoever calls it in turn, in either runner.
+  BenchRunner& runner() { return lockstep_ ? static_cast<BenchRunner&>(*lockstep_) : *runner_; }
 
  private:
+  Rehearsal(const BenchConfig& config, RunnerKind kind, const EmulatorConfig& emulator,
+            std::unique_ptr<JointRig> rig);
   void note(const std::exception_ptr& error);
   void pump();
   void awaitStop();
@@ -73,6 +81,7 @@ class Rehearsal {
 
   RunnerKind kind_;
   BenchConfig config_;
+  JointRig* rig_;  ///< of drives_
   EmulatedBench drives_;
   std::vector<std::unique_ptr<EmulatedBus>> buses_;
   std::vector<std::unique_ptr<TamperedBus>> wires_;
@@ -80,8 +89,9 @@ class Rehearsal {
   LockstepClock clock_;
   std::atomic<bool> stop_{false};
   std::unique_ptr<BenchRunner> runner_;
-  RealtimeRunner* realtime_ = nullptr;  ///< runner_, where it is one
-  std::future<void> waiting_;           ///< a call of the runner that waits for its loop
+  RealtimeRunner* realtime_ = nullptr;        ///< runner_, where it is one
+  std::unique_ptr<LockstepRunner> lockstep_;  ///< around it
+  std::future<void> waiting_;                 ///< a call of the runner that waits for its loop
   std::int64_t at_ = 0;
   bool ended_ = false, finished_ = false;
   std::string why_;

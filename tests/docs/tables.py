@@ -6,6 +6,7 @@
     tables.py seeds                     what was required and measured over seeds, of `ballbot reproduce --seeds N --json` on stdin
     tables.py faults                    the table of `ballbot hil --faults --json`, read from stdin
     tables.py checks                    that of `ballbot hil --checks --json`
+    tables.py commissioning             that of `ballbot hil --commission --faults --json`
 """
 import json
 import subprocess
@@ -107,5 +108,12 @@ def checks():
            for c in json.load(sys.stdin)["checks"]])
 
 
+def commissioning():
+    table(["what is wrong", "found by the task", "before any torque"],
+          [[r["name"], r["found_by"] or "(passes)", "no" if r["torque_was_on"] else "yes"]
+           for r in json.load(sys.stdin)["rows"]])
+
+
 if __name__ == "__main__":
-    {"messages": messages, "rejected": rejected, "estimation": estimation, "seeds": seeds, "faults": faults, "checks": checks}[sys.argv[1]](*sys.argv[2:])
+    {"messages": messages, "rejected": rejected, "estimation": estimation, "seeds": seeds, "faults": faults, "checks": checks,
+     "commissioning": commissioning}[sys.argv[1]](*sys.argv[2:])
