@@ -48,6 +48,7 @@ CommandLimits CommandLimits::read(ConfigReader& in) {
   c.angle_speed = in.numberOr("angle_speed_rad_per_s", c.angle_speed, {kTiny, 100});
   c.lag = in.numberOr("lag_m", c.lag, {kTiny, 1e3});
   c.angle_lag = in.numberOr("angle_lag_rad", c.angle_lag, {kTiny, 1e3});
+  c.push = in.numberOr("push_N", c.push, {kTiny, 1e6});
   in.finish();
   return c;
 }
@@ -59,6 +60,7 @@ CommandGovernor::CommandGovernor(const RobotParameters& robot, const CommandLimi
   bound(commands_.ee_orientation, limits.angle_step, limits.angle_lead, limits.angle_speed);
   bound(commands_.yaw, limits.angle_step, limits.angle_lead, limits.angle_speed);
   bound(commands_.arm_position, limits.angle_step, limits.angle_lead, limits.angle_speed);
+  commands_.push = limits.push;
   const double shoulder = robot.ball.radius + robot.arm[0].p_PJ_P.z();
   const double reach = kShareOfReach * reachOf(robot);
   commands_.ee_position.lower.z() = shoulder - reach;
@@ -88,7 +90,8 @@ void CommandGovernor::update(SimTime now, const TaskSchedule& schedule, const St
   commands_.arm_position.follow(asked.arm_position, seconds, x.segment<kArmJointCount>(kArm1),
                                 limits_.angle_lag);
   commands_.ee_orientation.follow(asked.R_WE, seconds, tip.R_WE, limits_.angle_lag);
-  cutting_ = (!asked.ee_position_weight.isZero(0) && commands_.ee_position.cuts(asked.p_WE)) ||
+  cutting_ = (asked.inContact() && asked.contact_force_C.norm() > limits_.push) ||
+             (!asked.ee_position_weight.isZero(0) && commands_.ee_position.cuts(asked.p_WE)) ||
              (!asked.ball_position_weight.isZero(0) && commands_.ball_position.cuts(asked.ball_position)) ||
              (!asked.ee_orientation_weight.isZero(0) && commands_.ee_orientation.cuts(asked.R_WE)) ||
              (asked.yaw_weight != 0 && commands_.yaw.cuts(scalar(asked.yaw))) ||

@@ -20,9 +20,11 @@ struct CommandLimits {
   double angle_speed = 0.6;  ///< [rad/s]
   double lag = 0.5;          ///< the anchor is no farther from the robot [m]
   double angle_lag = 0.8;    ///< ... [rad]
+  double push = 15;          ///< of the end-effector [N]; what gives way to more outruns the robot
 
   /// Keys, each optional: step_m, lead_m, speed_m_per_s, ee_speed_m_per_s, angle_step_rad, angle_lead_rad,
-  /// angle_speed_rad_per_s, lag_m, angle_lag_rad.
+  /// angle_speed_rad_per_s, lag_m, angle_lag_rad,
+  /// push_N.
   static CommandLimits read(ConfigReader& in);
 };
 

@@ -11,6 +11,8 @@ struct GovernedCommands {
   GovernedCommand<2> ball_position;  ///< [m]
   GovernedCommand<1> yaw;            ///< [rad]
   GovernedCommand<3> arm_position;   ///< [rad]
+  /// The longest force that the end-effector is asked to push with [N].
+  double push = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace ballbot

@@ -154,12 +154,13 @@ ContactReport MpcPlanner::superviseContact(SimTime now, const Vector3& p_WE) noe
   Tasks tasks;
   schedule.at(t, t, tasks, situation);
   if (tasks.inContact()) report.asked_W = tasks.R_WC * tasks.contact_force_C;
+  schedule.at(t, t, tasks, situation, governor_.commands());
   const double asked = tasks.inContact() ? tasks.contact_force_C.z() : 0;
   supervisor_.update(now, asked, tasks.R_WC.col(2).dot(contact_force_W_));
   situation = supervisor_.situation();
   situation.turn = turn;
   engine_->setContact(situation);
-  schedule.at(t, t, tasks, situation);
+  schedule.at(t, t, tasks, situation, governor_.commands());
   if (tasks.inContact()) report.counted_on_W = tasks.R_WC * tasks.contact_force_C;
   report.state = static_cast<std::int8_t>(supervisor_.state());
   return report;

@@ -128,7 +128,7 @@ void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& 
   out.ball_velocity = commands.ball_position.rate(ball, ball_position.rate(t), ahead);
   out.yaw = commands.yaw.reference(yaw.value(t, known), ahead)[0];
   out.arm_position = commands.arm_position.reference(arm_position.value(t, known), ahead);
-  out.contact_force_C = contact_force.value(t, known);
+  out.contact_force_C = cutTo(commands.push, contact_force.value(t, known));
   double& normal_force = out.contact_force_C.z();
   normal_force = std::min(normal_force, contact.force_limit) + contact.force_added;
   out.contact_moment_C = contact_moment.value(t, known);

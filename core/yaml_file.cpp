@@ -16,6 +16,8 @@
 namespace ballbot {
 namespace {
 
+constexpr std::size_t kLargestFile = std::size_t{16} << 20;
+
 SourceLocation locate(const std::string& source, const YAML::Mark& mark, bool has_lines) {
   if (!has_lines || mark.is_null()) return {source, 0, 0};
   return {source, mark.line + 1, mark.column + 1};
@@ -188,10 +190,16 @@ ConfigNode load(const std::string& path, std::vector<std::string>& open_files) {
   if (!in) {
     throw InputError(fmt::format("{}: cannot be read. Does the file exist?", path));
   }
-  std::ostringstream text;
-  text << in.rdbuf();
+  // A device may give bytes for ever.
+  std::string text(kLargestFile + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.size() > kLargestFile) {
+    throw InputError(fmt::format("{}: is longer than {} MiB, which no configuration is", path,
+                                 kLargestFile >> 20));
+  }
   open_files.push_back(id);
-  ConfigNode node = expandIncludes(parse(text.str(), path, true),
+  ConfigNode node = expandIncludes(parse(text, path, true),
                                    std::filesystem::path(path).parent_path(), open_files);
   open_files.pop_back();
   return node;
@@ -211,7 +219,7 @@ ConfigNode parseYaml(const std::string& text, const std::string& source) {
 std::pair<std::string, ConfigNode> readOverride(const std::string& path_equals_value) {
   const auto equals = path_equals_value.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw InputError(fmt::format("--set {}: write path=value, e.g. --set plant.seed=3",
+    throw InputError(fmt::format("--set {}: write path=value, e.g. --set duration_s=5",
                                  path_equals_value));
   }
   const std::string source = "--set " + path_equals_value;

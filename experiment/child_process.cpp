@@ -97,12 +97,20 @@ void ChildProcess::kill() {
   while (running()) ::usleep(1000);
 }
 
-std::string ChildProcess::lastWords() {
+int ChildProcess::exitCode() const { return exitCodeOf(status_); }
+
+std::string ChildProcess::lastLine() const {
   std::string last, line;
   std::ifstream in(stderr_path_);
   while (std::getline(in, line)) {
     if (!line.empty()) last = line;
   }
+  const std::string name = "ballbot: ";
+  return last.rfind(name, 0) == 0 ? last.substr(name.size()) : last;
+}
+
+std::string ChildProcess::lastWords() {
+  const std::string last = lastLine();
   std::string how = "is still running";
   if (!running()) {
     how = WIFEXITED(status_)

@@ -30,6 +30,10 @@ class ChildProcess {
   int finish(int timeout_ms);
   void kill();
 
+  /// Once it has ended: its exit code, or 128 + signal.
+  int exitCode() const;
+  /// What it said last on stderr, without the name of the program; "" if nothing.
+  std::string lastLine() const;
   /// How it ended, in words ("exit code 2", "signal 11 (Segmentation fault)"), and what it said
   /// last on stderr.
   std::string lastWords();

@@ -87,7 +87,10 @@ class OnlineComparison {
 
 LogEstimate estimateLog(const Scenario& scenario, const RunLog& log) {
   if (log.sensors.empty()) {
-    throw InputError("the log holds no sensor frames; was recording.sensors_period_ms negative?");
+    throw InputError("the log holds no sensor frames; " +
+                     (log.damage.none()
+                          ? std::string("was recording.sensors_period_ms negative?")
+                          : "it is " + log.damage.text()));
   }
   RobotSensing sensing(scenario);
   const SimDuration period = scenario.rates.estimator;

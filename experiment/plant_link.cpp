@@ -57,9 +57,18 @@ void PlantLink::start() {
   remote.first_patience = child_ ? std::max(options_.patience, std::chrono::milliseconds(30'000)) : options_.patience;
   remote.stop = options_.stop;
   if (child_) {
-    remote.peer_trouble = [this] { return child_->running() ? std::string() : child_->lastWords(); };
+    remote.peer_trouble = [this] { return troubleOfChild(); };
   }
   remote_ = std::make_unique<RemoteParticipant>(*transport_, remote);
+}
+
+// What the plant says of its input it says of ours.
+std::string PlantLink::troubleOfChild() {
+  if (child_->running()) return "";
+  if (child_->exitCode() == static_cast<int>(ExitCode::kBadInput)) {
+    throw InputError(child_->lastLine());
+  }
+  return child_->lastWords();
 }
 
 Participant& PlantLink::participant() {

@@ -53,6 +53,7 @@ class PlantLink {
 
  private:
   void start();
+  std::string troubleOfChild();
 
   const Scenario& scenario_;
   const RunFolder& folder_;

@@ -124,22 +124,14 @@ std::vector<std::string> checkScenario(const Scenario& scenario) {
   return known_metrics;
 }
 
-RunResult runExperiment(const Scenario& scenario, const std::string& out,
-                        const RunOptions& options) {
-  // Everything that can be wrong with the scenario is said before anything is started.
-  EventCalendar calendar(scenario.rates.base_step);
-  RobotController controller(scenario, calendar);
-  const std::vector<std::string> known_metrics = checkBeside(controller, scenario);
+namespace {
+
+/// The run itself, everything about the scenario being said already.
+RunResult runInFolder(const Scenario& scenario, const RunFolder& folder, const RunOptions& options,
+                      EventCalendar& calendar, RobotController& controller,
+                      const std::vector<std::string>& known_metrics) {
   Recording recording = readRecording(scenario);
   RunMetrics metrics(scenario);
-
-  const RunFolder folder = RunFolder::create(out, scenario.name);
-  writeScenario(scenario, folder.path());
-  writeManifest(scenario, folder,
-                options.start ? std::optional<SimTime>(options.start->time) : std::nullopt);
-  if (options.start) writeStart(*options.start, folder);
-  if (options.started) options.started(folder);
-
   const int core = options.pin && !options.in_process ? preferredCore() : -1;
   if (core >= 0) pinToCore(core);
   PlantLink plant(scenario, folder, linkOptions(options, core));
@@ -199,6 +191,32 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out,
   writeTiming(result, plant.statistics(), controller.planTimes(), recorder.bytesWritten(), folder);
   if (options.write_report) writeRunReport(scenario, result, folder);
   return result;
+}
+
+}  // namespace
+
+RunResult runExperiment(const Scenario& scenario, const std::string& out,
+                        const RunOptions& options) {
+  // Everything that can be wrong with the scenario is said before anything is started.
+  EventCalendar calendar(scenario.rates.base_step);
+  RobotController controller(scenario, calendar);
+  const std::vector<std::string> known_metrics = checkBeside(controller, scenario);
+  readRecording(scenario);
+  RunMetrics metrics(scenario);
+
+  const RunFolder folder = RunFolder::create(out, scenario.name);
+  writeScenario(scenario, folder.path());
+  writeManifest(scenario, folder,
+                options.start ? std::optional<SimTime>(options.start->time) : std::nullopt);
+  if (options.start) writeStart(*options.start, folder);
+  if (options.started) options.started(folder);
+
+  try {
+    return runInFolder(scenario, folder, options, calendar, controller, known_metrics);
+  } catch (const InputError&) {  // what a plant of its own finds wrong, it finds before it starts
+    folder.discardUnlessRecorded();
+    throw;
+  }
 }
 
 void servePlant(const Scenario& scenario, const LcmAddress& address, ServeOptions options) {

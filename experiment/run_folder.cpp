@@ -45,4 +45,10 @@ RunFolder RunFolder::open(const std::string& path) {
   return folder;
 }
 
+void RunFolder::discardUnlessRecorded() const {
+  std::error_code unknown;
+  if (fs::exists(logFile(), unknown) && fs::file_size(logFile(), unknown) > 0) return;
+  fs::remove_all(path_, unknown);
+}
+
 }  // namespace ballbot

@@ -14,6 +14,9 @@ class RunFolder {
   /// @throw InputError if `path` is not a run folder.
   static RunFolder open(const std::string& path);
 
+  /// Takes a folder away in which nothing has been recorded, and its content with it.
+  void discardUnlessRecorded() const;
+
   const std::string& path() const { return path_; }
   std::string scenarioFile() const { return path_ + "/scenario.yaml"; }
   std::string manifestFile() const { return path_ + "/manifest.json"; }

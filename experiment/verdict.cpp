@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/nearest_word.hpp"
 
 namespace ballbot {
 
@@ -15,8 +16,11 @@ std::vector<VerdictRow> judge(const std::vector<MetricLimit>& requirements,
   std::vector<VerdictRow> rows;
   for (const MetricLimit& r : requirements) {
     if (std::find(known_metrics.begin(), known_metrics.end(), r.metric) == known_metrics.end()) {
-      throw InputError(fmt::format("{}: requirement on unknown metric '{}'; known are: {}",
-                                   toText(r.where), r.metric, fmt::join(known_metrics, ", ")));
+      const std::string near = nearestWord(r.metric, {known_metrics.begin(), known_metrics.end()});
+      throw InputError(fmt::format(
+          "{}: requirement on unknown metric '{}'{}", toText(r.where), r.metric,
+          near.empty() ? fmt::format("; known are: {}", fmt::join(known_metrics, ", "))
+                       : fmt::format("; did you mean '{}'? docs/metrics.md has them all", near)));
     }
     VerdictRow row;
     row.metric = r.metric;

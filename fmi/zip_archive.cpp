@@ -10,6 +10,7 @@
 #include <zip.h>
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 
 namespace ballbot {
 namespace {
@@ -147,13 +148,22 @@ void writeEntry(Entry& entry, const fs::path& target, bool executable, const std
 
 }  // namespace
 
+// Made in memory: whoever is interrupted leaves nothing half made beside the file.
 void writeZip(const std::string& path, const std::vector<ZipEntry>& entries) {
   const auto fail = [&](const char* why) {
     throw OutputError(fmt::format("{}: cannot be written: {}", path, why));
   };
-  int code = 0;
-  Archive archive(zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code));
-  if (!archive) fail("no such folder, or no permission");
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* bytes = zip_source_buffer_create(nullptr, 0, 0, &error);
+  if (bytes == nullptr) fail("no memory");
+  const std::unique_ptr<zip_source_t, void (*)(zip_source_t*)> kept(bytes, zip_source_free);
+  zip_source_keep(bytes);  // the archive frees its own hold
+  Archive archive(zip_open_from_source(bytes, ZIP_TRUNCATE, &error));
+  if (!archive) {
+    zip_source_free(bytes);
+    fail(zip_error_strerror(&error));
+  }
   for (const ZipEntry& entry : entries) {
     zip_source_t* source =
         zip_source_buffer(archive.get(), entry.content.data(), entry.content.size(), 0);
@@ -171,6 +181,15 @@ void writeZip(const std::string& path, const std::vector<ZipEntry>& entries) {
   }
   if (zip_close(archive.get()) != 0) fail(zip_strerror(archive.get()));
   archive.release();  // closed
+  if (zip_source_open(bytes) != 0) fail("it cannot be read back");
+  zip_stat_t stat;
+  zip_source_stat(bytes, &stat);
+  std::string content(stat.size, '\0');
+  const bool whole = zip_source_read(bytes, content.data(), content.size()) ==
+                     static_cast<zip_int64_t>(content.size());
+  zip_source_close(bytes);
+  if (!whole) fail("it cannot be read back");
+  if (const int why = writeWholeFile(path, content)) fail(std::strerror(why));
 }
 
 std::string readFromZip(const std::string& path, const std::string& name, std::uint64_t longest) {

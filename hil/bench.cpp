@@ -285,6 +285,7 @@ void Bench::goDown(bool had_torque) noexcept {
     if (order.nmt_stop) master_.nmt(i, NmtCommand::kStop);
     if (order.nmt_pre_operational) master_.nmt(i, NmtCommand::kPreOperational);
     if ((order.nmt_stop || order.nmt_pre_operational) && asked_drive_ == i) asked_drive_ = -1;
+    if (order.disable_by_sdo) master_.disableBySdo(i);
     if (order.ask) master_.ask(i, kStatuswordObject, true);
   }
 }

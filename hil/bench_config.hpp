@@ -73,7 +73,7 @@ struct SafetyConfig {
   int most_misses = 6;                  ///< cycles of the last 32 without a drive's PDOs
   int imu_repeats = 6;                  ///< samples equal bit for bit; 0: as many as there are
   int read_back_cycles = 10;            ///< from one parameter read to the next; 0: none
-  int command_repeats = 40;             ///< commands equal bit for bit; 0: as many as there are
+  int command_repeats = 8;             ///< commands equal bit for bit; 0: as many as there are
 };
 
 struct RealtimeConfig {

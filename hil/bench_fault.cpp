@@ -18,7 +18,7 @@ constexpr std::array<Check, kCheckCount> kTable = {{
     {F::kCommandGains, "command_gains", "command asks for gains the drives do not have", kDamp, 1,
      kCommand},
     {F::kCommandRepeats, "command_repeats", "the controller sends one command again and again",
-     kDamp, 40, kCommand},
+     kOff, 8, kCommand},
     {F::kCommandOrder, "command_order", "a command is older than the one before it", kDamp, 1,
      kCommand},
     {F::kCommandAbsurd, "command_absurd", "the controller asks for torque far beyond the limit",

@@ -231,6 +231,11 @@ bool BenchMaster::ask(int drive, ObjectAddress object, bool urgent) noexcept {
   return links_[n].ask(object, urgent, outbox(config_.drives[n].bus));
 }
 
+void BenchMaster::disableBySdo(int drive) noexcept {
+  const auto n = static_cast<std::size_t>(drive);
+  links_[n].tell({0x6040, 0}, kDisableVoltage, 2, outbox(config_.drives[n].bus));
+}
+
 bool BenchMaster::allDrives(DriveState state) const noexcept {
   return std::all_of(drives_.begin(), drives_.end(), [&](const Drive& d) {
     return d.stale_cycles == 0 && driveState(d.statusword) == state;

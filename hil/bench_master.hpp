@@ -53,6 +53,8 @@ class BenchMaster {
   void nmt(int drive, NmtCommand command) noexcept;
   /// Asks a drive for an object by SDO; see NodeLink::ask().
   bool ask(int drive, ObjectAddress object, bool urgent) noexcept;
+  /// Tells a drive "disable voltage" by SDO.
+  void disableBySdo(int drive) noexcept;
   std::optional<NodeLink::Answer> takeAnswer(int drive) noexcept {
     return links_[static_cast<std::size_t>(drive)].takeAnswer();
   }

@@ -120,6 +120,15 @@ bool NodeLink::ask(ObjectAddress object, bool urgent, FrameQueue& out) noexcept 
   return true;
 }
 
+void NodeLink::tell(ObjectAddress object, std::uint64_t value, std::size_t size,
+                    FrameQueue& out) noexcept {
+  if (phase_ != Phase::kRunning) return;
+  asking_ = true;
+  std::uint8_t bytes[8];
+  putLittleEndian(bytes, value, sizeof bytes);
+  sdo_.download(object, bytes, size, out);
+}
+
 std::optional<NodeLink::Answer> NodeLink::takeAnswer() noexcept {
   if (!asking_ || sdo_.status() == SdoClient::Status::kBusy) return std::nullopt;
   asking_ = false;

@@ -42,6 +42,9 @@ class NodeLink {
   /// Asks a running node for one object. One question at a time; false if one is open. An `urgent`
   /// one takes the place of another that is open.
   bool ask(ObjectAddress object, bool urgent, FrameQueue& out) noexcept;
+  /// Writes one object of a running node, in the place of any question that is open. What comes of
+  /// it is an answer, too.
+  void tell(ObjectAddress object, std::uint64_t value, std::size_t size, FrameQueue& out) noexcept;
   /// A node that changes its NMT state forgets what it was asked.
   void forgetQuestion() noexcept { asking_ = false; }
   struct Answer {

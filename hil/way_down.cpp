@@ -57,8 +57,11 @@ void WayDown::step(Leg& leg, Said said) const noexcept {
     leg.waited = 1;
     leg.order.nmt_stop = leg.stage == Stage::kNmtStop;
   }
-  leg.order.nmt_pre_operational = leg.stage == Stage::kNmtStop && leg.waited == 2;
-  leg.order.ask = said == Said::kNothing && !leg.order.nmt_stop;
+  const bool stopping = leg.stage == Stage::kNmtStop;
+  leg.order.nmt_pre_operational = stopping && leg.waited == 2;
+  leg.order.disable_by_sdo = stopping && leg.waited == 3;
+  const bool told = stopping && leg.waited >= 3 && leg.waited < 3 + patience_;  // time to answer
+  leg.order.ask = said == Said::kNothing && !leg.order.nmt_stop && !told;
   if (leg.stage == Stage::kQuickStop) leg.order.goal = DriveGoal::kQuickStop;
 }
 

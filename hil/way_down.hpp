@@ -13,7 +13,8 @@ namespace ballbot {
 ///
 ///   disable voltage -> quick stop -> disable voltage -> NMT stop -> given up
 ///
-/// Each stage lasts `patience` cycles, the last one ten times as long. A drive that says by
+/// After NMT stop it is told "disable voltage" once more, by SDO: one that was stopped already has heard
+/// nothing of the rest. Each stage lasts `patience` cycles, the last one ten times as long. A drive that says by
 /// statusword that it is off goes no further; one that says later that it is on begins again.
 class WayDown {
  public:
@@ -33,6 +34,7 @@ class WayDown {
     DriveGoal goal = DriveGoal::kVoltageOff;
     bool nmt_stop = false;             ///< once
     bool nmt_pre_operational = false;  ///< once, after it: only there can it be asked by SDO
+    bool disable_by_sdo = false;       ///< once, after that
     bool ask = false;                  ///< for its statusword, by SDO
   };
 

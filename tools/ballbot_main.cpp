@@ -1,10 +1,36 @@
 #include <cstdio>
 #include <exception>
+#include <set>
+#include <string>
 
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/nearest_word.hpp"
 #include "core/printable_text.hpp"
 #include "tools/commands.hpp"
 #include "tools/number_options.hpp"
 #include "tools/standard_streams.hpp"
+
+namespace ballbot {
+namespace {
+
+/// A first word that is no verb is most likely a verb misspelt. @throw InputError
+void requireKnownVerb(CLI::App& program, int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "-";
+  if (word.rfind('-', 0) == 0) return;
+  std::set<std::string> verbs;
+  for (const CLI::App* verb : program.get_subcommands({})) {
+    if (verb->get_name() == word) return;
+    verbs.insert(verb->get_name());
+  }
+  const std::string near = nearestWord(word, verbs);
+  throw InputError(fmt::format("'{}' is none of its verbs{}. ballbot --help lists them", word,
+                               near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+}  // namespace
+}  // namespace ballbot
 
 int main(int argc, char** argv) {
   using namespace ballbot;
@@ -19,8 +45,9 @@ int main(int argc, char** argv) {
   program.footer(
       "Start with:\n"
       "  ballbot run configs/scenarios/balance.yaml\n"
-      "Exit codes: 0 passed, 1 a requirement was missed, 2 bad input, 3 a participant was lost,\n"
-      "4 output could not be written, 130 interrupted.");
+      "Exit codes: 0 passed, 1 a requirement was missed, 2 bad input, 3 a participant was lost, or a\n"
+      "check of the bench fired, 4 output could not be written, 5 a drive of the bench has not said\n"
+      "that its torque is off, 130 interrupted.");
 
   ExitCode result = ExitCode::kPassed;
   addRunCommand(program, result);
@@ -45,6 +72,7 @@ int main(int argc, char** argv) {
 
   try {
     try {
+      requireKnownVerb(program, argc, argv);
       program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
       if (program.exit(e) != 0) result = ExitCode::kBadInput;

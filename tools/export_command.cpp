@@ -40,6 +40,7 @@ ExitCode exportRun(const ExportArguments& a) {
     throw InputError("export: say what to write: --csv FOLDER, --hdf5 FILE, or both");
   }
   const RunFolder run = RunFolder::open(a.run);
+  readManifest(run);  // whose log this is
   const RunLog log = readRecordedLog(run);
   requireSomething(log, run);
   const std::vector<LogTable> tables = logTables(log);

@@ -167,7 +167,7 @@ void addControllerCommand(CLI::App& program, ExitCode& result) {
       "Example, two terminals:\n"
       "  ballbot plant configs/scenarios/balance.yaml\n"
       "  ballbot controller configs/scenarios/balance.yaml\n"
-      "Exit codes as for run.");
+      "Exit codes as for run; and 5: a drive of the bench has not said that its torque is off.");
   command->callback([&result, a] { result = runScenario(*a); });
 }
 

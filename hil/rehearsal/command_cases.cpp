@@ -23,6 +23,9 @@ std::vector<FaultCase> commandCases() {
   const Reasons finite = {B::kCommandNotFinite};
   FaultCase hung = off("master: hangs, SYNC goes on", 12, {}, {});
   hung.without_master = true;
+  FaultCase hangs = off("controller: one command again and again", s.command_repeats + 1,
+                        {B::kCommandRepeats}, {});
+  hangs.each = [](Rehearsal&, Turn& t, int) { t.command.torque.fill(0.3); };
   FaultCase late = damped("loop: oversleeps five periods", 7, {B::kLateLoop},
                           [](Rehearsal& r) { r.oversleep(5); });
   late.stepped = false;  // there the drives' clock waits for the loop
@@ -31,8 +34,7 @@ std::vector<FaultCase> commandCases() {
              [](Rehearsal&, Turn& t, int) { t.silent = true; }),
       turned("controller: commands in one cycle of thirty", s.watchdog_cycles + 1,
              {B::kCommandTimeout}, [](Rehearsal&, Turn& t, int n) { t.silent = n % 30 != 0; }),
-      turned("controller: one command again and again", s.command_repeats + 1, {B::kCommandRepeats},
-             [](Rehearsal&, Turn& t, int) { t.command.torque.fill(0.3); }),
+      hangs,
       turned("controller: command is NaN", 1, finite,
              [](Rehearsal&, Turn& t, int) { t.command.torque[3] = kNan; }),
       turned("controller: command is infinite", 1, finite,
@@ -69,6 +71,14 @@ std::vector<FaultCase> wayDownCases() {
       });
     };
   };
+  const auto deafToSdo = [](int drive) {
+    return [=](Rehearsal& r) {
+      r.wire(busOfDrive(drive)).onWayToDrives([=](const CanFrame& f, std::vector<CanFrame>& out) {
+        const bool controlword = f.data[1] == 0x40 && f.data[2] == 0x60;
+        if (f.id != 0x601U + static_cast<unsigned>(drive) || !controlword) out.push_back(f);
+      });
+    };
+  };
   const auto stop = [](Rehearsal& r) { r.interrupt(); };
   FaultCase quick = damped("way down: ignores disable voltage, a person stops", 1,
                            {B::kDriveTransition}, both(disobey(2, {0x00}), stop));
@@ -76,23 +86,28 @@ std::vector<FaultCase> wayDownCases() {
   FaultCase nmt = damped("way down: ignores quick stop too, a person stops", 1,
                          {B::kDriveTransition}, both(disobey(4, {0x00, 0x02}), stop));
   nmt.way_down_cycles = 3 * s.confirm_cycles + 4;
+  FaultCase sdo =
+      damped("way down: obeys its SDO server alone, a person stops", 1, {B::kDriveTransition},
+             both(both(disobey(4, {0x00, 0x02}), deafToNmt(4)), stop));
+  sdo.way_down_cycles = 3 * s.confirm_cycles + 6;
   FaultCase fault =
       off("way down: ignores disable voltage after another drive's fault", 1, {B::kNodeTrouble},
           both(disobey(1, {0x00}), inside(EmulatedFault::kEmergency, 4, 0x2310)));
   fault.way_down_cycles = s.confirm_cycles + 3;
-  FaultCase never = damped("way down: obeys nothing, a person stops", 1, {B::kDriveTransition},
-                           both(both(disobey(3, {0x00, 0x02}), deafToNmt(3)), stop));
+  FaultCase never =
+      damped("way down: obeys nothing, a person stops", 1, {B::kDriveTransition},
+             both(both(disobey(3, {0x00, 0x02}), both(deafToNmt(3), deafToSdo(3))), stop));
   never.reaction = Reaction::kSaid;
   FaultCase never_off = never;
   never_off.name = "way down: obeys nothing, the IMU freezes";
   never_off.reasons = {B::kImuRepeats};
   never_off.detection_cycles = 7;
-  never_off.start = both(both(disobey(0, {0x00, 0x02}), deafToNmt(0)),
+  never_off.start = both(both(disobey(0, {0x00, 0x02}), both(deafToNmt(0), deafToSdo(0))),
                          both(onImu(1, freezeBytes(0, 6)), onImu(2, freezeBytes(0, 6))));
   FaultCase liar = damped("way down: statusword frozen at enabled, a person stops", 1,
                           {B::kDriveTransition}, both(onTpdo(5, 1, freezeBytes(0, 2)), stop));
   liar.way_down_cycles = 2;
-  return {quick, nmt, fault, never, never_off, liar};
+  return {quick, nmt, sdo, fault, never, never_off, liar};
 }
 
 }  // namespace ballbot

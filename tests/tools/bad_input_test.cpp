@@ -68,6 +68,27 @@ TEST(BadFiles, AMissingScenarioIsNamed) {
   EXPECT_THAT(run.err, HasSubstr("/nowhere/x.yaml: cannot be read"));
 }
 
+TEST(BadFiles, ADeviceThatNeverEndsIsNoConfiguration) {
+  const Finished run = runBallbot({"run", "/dev/zero", "--quiet"}, 20);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("/dev/zero: is longer than 16 MiB"));
+}
+
+TEST(BadFiles, AVerbThatIsNoneIsNamedWithTheNearest) {
+  const Finished run = runBallbot({"estimat", "x.yaml"}, 20);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("'estimat' is none of its verbs; did you mean 'estimate'?"));
+}
+
+TEST(BadFiles, ARequirementOnAMisspeltMetricNamesTheNearest) {
+  const TemporaryFolder folder;
+  const Finished run = runBallbot({"run", scenarioPath("balance"), "--quiet", "--out", folder / "run", "--set",
+                                   "requirements={largest_tilt_dge: {below: 1}}"},
+                                  20);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("did you mean 'largest_tilt_deg'?"));
+}
+
 TEST(BadFiles, AnErrorNamesFileLineAndColumn) {
   const TemporaryFolder folder;
   std::string text = readFile(scenarioPath("balance"));

@@ -52,6 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
         FarCommand{"EeTurns", "balance", "ee_orientation", "{moves: [{at_s: 2, by: [5, 5, 5]}]}"},
         FarCommand{"EeStep", "ee_pose_tracking", "ee_position",
                    "{moves: [{at_s: 2, by: [5, 0, 0]}]}"},
+        FarCommand{"Push", "door_5N", "contact_force", "{moves: [{at_s: 2, by: [0, 0, 100]}]}"},
         FarCommand{"EeStepBallHeld", "whole_body_sequence", "ee_position",
                    "{moves: [{at_s: 2, by: [5, 0, 0]}]}"}),
     [](const auto& test) { return std::string(test.param.name); });

@@ -1,5 +1,6 @@
 // FMUs in whole runs, through the executable.
 #include <filesystem>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -79,6 +80,21 @@ TEST(FmuRun, AnFmuThatCrashesEndsTheRunInWordsAndLeavesItsRecord) {
   EXPECT_THAT(run.err, HasSubstr("FMU 'door'"));
   EXPECT_THAT(run.err, HasSubstr("its process ended when asked to step (signal 6, Aborted)"));
   EXPECT_GT(fs::file_size(folder / "run/run.lcmlog"), 10000U);
+}
+
+TEST(FmuRun, ADamagedFmuIsBadInputWhereverThePlantLivesAndLeavesNoFolder) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "bad.fmu") << "PK, and then nothing of an archive";
+  for (const bool in_process : {true, false}) {
+    std::vector<std::string> arguments = {"run", scenarioPath("balance"), "--quiet", "--no-report", "--out",
+                                          folder / "run", "--set",
+                                          "fmus=[{name: plant, file: " + folder / "bad.fmu" + "}]"};
+    if (in_process) arguments.push_back("--in-process");
+    const Finished run = runBallbot(arguments, 60);
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("bad.fmu: is not an archive that can be read"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "run"));
+  }
 }
 
 TEST(FmuRun, InfoTellsAboutAnybodysFmu) {
