@@ -178,7 +178,9 @@ void readBuses(ConfigReader& in, BenchConfig& c) {
   for (ConfigReader& b : in.list("buses")) {
     BusConfig bus;
     bus.address = b.text("address");
-    bus.bitrate_kbps = b.integerOr("bitrate_kbps", bus.bitrate_kbps, {10, 1000});
+    CanBusSettings& s = bus.settings;
+    s.bitrate_kbps = b.integerOr("bitrate_kbps", s.bitrate_kbps, {10, 1000});
+    s.acknowledges = b.booleanOr("acknowledges", s.acknowledges);
     b.finish();
     c.buses.push_back(bus);
   }
@@ -221,6 +223,8 @@ BenchConfig readBenchConfig(const ConfigNode& tree) {
   c.master_timeout_ms = in.integerOr("master_timeout_ms", c.master_timeout_ms, {2, 10'000});
   c.drive_heartbeat_ms = in.integerOr("drive_heartbeat_ms", c.drive_heartbeat_ms, {1, 1000});
   c.output_deadline_ms = in.integerOr("output_deadline_ms", c.output_deadline_ms, {0, 1000});
+  c.sdo_timeout_ms = in.integerOr("sdo_timeout_ms", c.sdo_timeout_ms, {10, 5000});
+  c.boot_timeout_ms = in.integerOr("boot_timeout_ms", c.boot_timeout_ms, {100, 60'000});
   if (c.master_timeout_ms < 2 * c.master_heartbeat_ms) {
     throw InputError(in.at("master_timeout_ms") + "must be at least twice master_heartbeat_ms");
   }

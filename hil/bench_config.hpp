@@ -8,6 +8,7 @@
 #include "core/config_node.hpp"
 #include "core/time.hpp"
 #include "hil/bench_signals.hpp"
+#include "hil/can_bus.hpp"
 #include "hil/drive_scaling.hpp"
 #include "hil/pdo_mapping.hpp"
 
@@ -15,7 +16,7 @@ namespace ballbot {
 
 struct BusConfig {
   std::string address;  ///< slcan:/dev/ttyACM0 or socketcan:can0
-  int bitrate_kbps = 1000;
+  CanBusSettings settings;
 };
 
 /// Where the PD law of the joints is closed.
@@ -91,6 +92,8 @@ struct BenchConfig {
   bool synchronous_outputs = false;  ///< RPDOs act at the next SYNC instead of on reception
   int master_heartbeat_ms = 5, master_timeout_ms = 25;  ///< the drives' watch over the master
   int drive_heartbeat_ms = 10;
+  int sdo_timeout_ms = 500;    ///< for one answer, in the set-up and in `hil --check`
+  int boot_timeout_ms = 2000;  ///< from a reset to the boot-up message
   int output_deadline_ms = 15;      ///< RPDO event timer in the drives; 0: none
   std::vector<PdoMapping> outputs;  ///< RPDO1..
   std::vector<PdoMapping> inputs;   ///< TPDO1..

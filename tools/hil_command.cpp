@@ -94,7 +94,7 @@ void requireFreeAddress(const LcmAddress& address) {
 struct OpenBuses {
   explicit OpenBuses(const BenchConfig& config) {
     for (const BusConfig& bus : config.buses) {
-      owned.push_back(openCanBus(bus.address, bus.bitrate_kbps));
+      owned.push_back(openCanBus(bus.address, bus.settings));
       ends.push_back(owned.back().get());
       fmt::print(stderr, "hil: {}\n", owned.back()->describe());
     }
@@ -106,7 +106,7 @@ struct OpenBuses {
 ExitCode showBench(const HilArguments& a) {
   const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
   const OpenBuses buses(config);
-  const auto nodes = checkBench(config, buses.ends, std::chrono::milliseconds(200));
+  const auto nodes = checkBench(config, buses.ends);
   fmt::print("{}", a.json ? jsonText(checkJson(nodes)) + "\n" : checkTable(nodes));
   return allGood(nodes) ? ExitCode::kPassed : ExitCode::kRequirementMissed;
 }
@@ -125,6 +125,9 @@ Ending serveRunner(BenchRunner& runner, const HilArguments& a, std::uint64_t dig
   options.config_digest = digest;
   options.stop = interruptFlag();
   options.keep_serving = a.keep_serving;
+  BusySignal busy;
+  options.busy = &busy;
+  runner.setSay([&busy](const std::string& doing) { busy.tell(doing); });
   options.say = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
   runner.setStopFlag(options.stop);
   Ending ending;
@@ -133,6 +136,7 @@ Ending serveRunner(BenchRunner& runner, const HilArguments& a, std::uint64_t dig
   } catch (...) {
     ending.lost = std::current_exception();
   }
+  runner.setSay({});
   runner.release();
   return ending;
 }

@@ -103,7 +103,7 @@ ExitCode identifyOnBench(IdentifyArguments a) {
   std::vector<std::unique_ptr<CanBus>> owned;
   std::vector<CanBus*> ends;
   for (const BusConfig& bus : config.buses) {
-    owned.push_back(openCanBus(bus.address, bus.bitrate_kbps));
+    owned.push_back(openCanBus(bus.address, bus.settings));
     ends.push_back(owned.back().get());
   }
   std::unique_ptr<BenchRunner> runner;

@@ -30,6 +30,7 @@ std::int64_t rounded(double value, double low, double high) {
 DriveNode::DriveNode(const EmulatedDriveParameters& p)
     : CanopenNode(p.node, kServoDrive, "ballbot emulated drive", kProduct), parameters_(p) {
   addObjects(p);
+  setSdoDelay(p.sdo_delay_ns);
 }
 
 void DriveNode::addOptions() {

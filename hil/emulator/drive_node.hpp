@@ -16,6 +16,7 @@ struct EmulatedDriveParameters {
   std::int64_t motor_encoder_counts = 720'000;  ///< 60E6:01, of 60E4:01, per turn of the joint
   double sign = 1;                              ///< of all angles and torques against the joint's
   double offset = 0;                            ///< joint angle at which 6064 is zero [rad]
+  std::int64_t sdo_delay_ns = 0;                ///< of its SDO server's answers
 };
 
 /// What a drive reads of its joint.

@@ -48,6 +48,8 @@ void readDriveValues(ConfigReader& in, EmulatedDriveParameters& p) {
   p.motor_encoder_counts =
       in.integerOr("motor_encoder_counts", static_cast<int>(p.motor_encoder_counts), {16, 1e8});
   p.sign = in.numberOr("sign", p.sign, {-1, 1});
+  p.sdo_delay_ns =
+      1'000'000 * static_cast<std::int64_t>(in.integerOr("sdo_delay_ms", 0, {0, 10'000}));
   p.offset = kRadPerDeg * in.numberOr("offset_deg", p.offset / kRadPerDeg, {-3600, 3600});
 }
 

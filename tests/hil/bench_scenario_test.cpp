@@ -96,7 +96,7 @@ BenchRun runBench(const Scenario& scenario, bool synchronous, bool over_lcm) {
   std::vector<std::unique_ptr<CanBus>> buses;
   std::vector<CanBus*> ends;
   for (const BusConfig& bus : config.buses) {
-    buses.push_back(openCanBus(bus.address, bus.bitrate_kbps));
+    buses.push_back(openCanBus(bus.address, bus.settings));
     ends.push_back(buses.back().get());
   }
   SteppedRunner runner(config, ends, std::chrono::seconds(20));
