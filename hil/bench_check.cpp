@@ -123,9 +123,14 @@ void readDrive(Reader& reader, std::int64_t type, const DriveConfig& drive,
     return;
   }
   report.is_drive = true;
+  const ObjectAddress scale = drive.torque_reference_object;
   report.rated_torque_Nm = reader.quantity("rated torque", 1e-3, 0x6076);
-  if (const auto most = reader.number("max torque", 0x6072); most && report.rated_torque_Nm) {
-    report.max_torque_Nm = *report.rated_torque_Nm * static_cast<double>(*most) / 1000;
+  const std::optional<double> reference =
+      scale == ObjectAddress{0x6076, 0}
+          ? report.rated_torque_Nm
+          : reader.quantity("torque of 1000 counts", 1e-3, scale.index, scale.sub);
+  if (const auto most = reader.number("max torque", 0x6072); most && reference) {
+    report.max_torque_Nm = *reference * static_cast<double>(*most) / 1000;
   }
   report.encoder_counts = reader.number("encoder increments", 0x608F, 1);
   report.supply_V = reader.quantity("supply voltage", 1e-3, 0x6079);
@@ -137,7 +142,8 @@ void readDrive(Reader& reader, std::int64_t type, const DriveConfig& drive,
   }
   const auto error = static_cast<std::uint16_t>(reader.number("error code", 0x603F).value_or(0));
   if (error != 0) report.last_error = fmt::format("{:04X} {}", error, errorCodeText(error));
-  compare(report, "rated torque [Nm]", report.rated_torque_Nm, drive.scaling.torque_reference);
+  compare(report, scale.index == 0x6076 ? "rated torque [Nm]" : "torque of 1000 counts [Nm]",
+          reference, drive.scaling.torque_reference);
   std::optional<double> counts;
   if (report.encoder_counts) counts = static_cast<double>(*report.encoder_counts);
   compare(report, "encoder increments", counts, drive.scaling.encoder_counts);
@@ -152,12 +158,29 @@ void readDrive(Reader& reader, std::int64_t type, const DriveConfig& drive,
   }
 }
 
+/// That the device is the one its data sheet is of.
+void compareIdentity(const NamedDataSheet& named, NodeReport& report) {
+  if (!named || !report.found) return;
+  const auto compareNumber = [&](const char* what, const std::optional<std::int64_t>& is,
+                                 const std::optional<std::int64_t>& promised) {
+    if (!promised || !is || *is == *promised) return;
+    report.disagreements.push_back(
+        fmt::format("{} is {:#x}, {} says {:#x}", what, *is, named->file(), *promised));
+  };
+  compareNumber("vendor", report.vendor, named->vendorNumber());
+  compareNumber("product code", report.product, named->productNumber());
+}
+
 /// A report that knows where its node is.
-NodeReport reportOf(const std::string& name, int bus, int node) {
+NodeReport reportOf(const std::string& name, int bus, int node, const NamedDataSheet& named) {
   NodeReport report;
   report.name = name;
   report.bus = bus;
   report.node = node;
+  if (named) {
+    report.data_sheet =
+        fmt::format("{}: {}, {}", named->file(), named->vendor(), named->product());
+  }
   return report;
 }
 
@@ -168,14 +191,15 @@ std::vector<NodeReport> checkBench(const BenchConfig& config, const std::vector<
   const auto bus = [&](int number) -> CanBus& { return *buses[static_cast<std::size_t>(number)]; };
   std::vector<NodeReport> reports;
   for (const DriveConfig& drive : config.drives) {
-    NodeReport report = reportOf(drive.name, drive.bus, drive.node);
+    NodeReport report = reportOf(drive.name, drive.bus, drive.node, drive.data_sheet);
     Reader reader(bus(drive.bus), drive.node, patience, report);
     if (const auto type = readIdentity(reader, report)) {
       readDrive(reader, *type, drive, config, report);
     }
+    compareIdentity(drive.data_sheet, report);
     reports.push_back(std::move(report));
   }
-  NodeReport imu = reportOf("IMU", config.imu.bus, config.imu.node);
+  NodeReport imu = reportOf("IMU", config.imu.bus, config.imu.node, config.imu.data_sheet);
   Reader reader(bus(imu.bus), imu.node, patience, imu);
   if (readIdentity(reader, imu)) {
     compare(imu, "accelerometer resolution [m/s^2]",
@@ -184,6 +208,7 @@ std::vector<NodeReport> checkBench(const BenchConfig& config, const std::vector<
     compare(imu, "gyro resolution [rad/s]", reader.quantity("gyro resolution", 1e-9, 0x2004, 2),
             config.imu.gyro_resolution);
   }
+  compareIdentity(config.imu.data_sheet, imu);
   reports.push_back(std::move(imu));
   return reports;
 }

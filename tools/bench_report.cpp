@@ -1,6 +1,7 @@
 #include "tools/bench_report.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -133,7 +134,7 @@ bool allGood(const std::vector<NodeReport>& nodes) {
   });
 }
 
-Report checkJson(const std::vector<NodeReport>& nodes) {
+Report checkJson(const std::vector<NodeReport>& nodes, const std::vector<std::string>& sheets) {
   const auto orNull = [](const auto& value) { return value ? Report(*value) : Report(nullptr); };
   Report list = Report::array();
   for (const NodeReport& r : nodes) {
@@ -141,6 +142,7 @@ Report checkJson(const std::vector<NodeReport>& nodes) {
                     {"bus", r.bus},
                     {"node", r.node},
                     {"found", r.found},
+                    {"data_sheet", r.data_sheet},
                     {"device", orNull(r.device)},
                     {"firmware", orNull(r.firmware)},
                     {"serial", orNull(r.serial)},
@@ -154,10 +156,13 @@ Report checkJson(const std::vector<NodeReport>& nodes) {
                     {"not_given", r.not_given},
                     {"disagreements", r.disagreements}});
   }
-  return {{"nodes", list}, {"good", allGood(nodes)}};
+  return {{"nodes", list},
+          {"data_sheets_disagree", sheets},
+          {"good", allGood(nodes) && sheets.empty()}};
 }
 
-std::string checkTable(const std::vector<NodeReport>& nodes) {
+std::string checkTable(const std::vector<NodeReport>& nodes,
+                       const std::vector<std::string>& sheets) {
   // What was not given is a dash here and stands in words below.
   const auto cell = [](const auto& value, const char* format) {
     return value ? fmt::format(fmt::runtime(format), *value) : std::string("-");
@@ -188,6 +193,12 @@ std::string checkTable(const std::vector<NodeReport>& nodes) {
       out += fmt::format("         DIFFERS: {}\n", text);
     }
   }
+  std::set<std::string> named;
+  for (const NodeReport& r : nodes) {
+    if (r.data_sheet.empty() || !named.insert(r.data_sheet).second) continue;
+    out += fmt::format("data sheet: {}\n", r.data_sheet);
+  }
+  for (const std::string& text : sheets) out += fmt::format("DATA SHEET DIFFERS: {}\n", text);
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "cosim/serve.hpp"
 #include "experiment/plant_link.hpp"
 #include "hil/bench_check.hpp"
+#include "hil/data_sheet_check.hpp"
 #include "hil/hil_participant.hpp"
 #include "hil/open_can_bus.hpp"
 #include "hil/realtime_runner.hpp"
@@ -105,10 +106,11 @@ struct OpenBuses {
 
 ExitCode showBench(const HilArguments& a) {
   const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
+  const std::vector<std::string> sheets = checkDataSheets(config);
   const OpenBuses buses(config);
   const auto nodes = checkBench(config, buses.ends);
-  fmt::print("{}", a.json ? jsonText(checkJson(nodes)) + "\n" : checkTable(nodes));
-  return allGood(nodes) ? ExitCode::kPassed : ExitCode::kRequirementMissed;
+  fmt::print("{}", a.json ? jsonText(checkJson(nodes, sheets)) + "\n" : checkTable(nodes, sheets));
+  return allGood(nodes) && sheets.empty() ? ExitCode::kPassed : ExitCode::kRequirementMissed;
 }
 
 /// How serving ended, an exception included: whatever it was, the bench is brought down and
@@ -160,6 +162,7 @@ ExitCode conclude(const Bench& bench, const Ending& ending) {
 ExitCode serveBench(const HilArguments& a) {
   const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
   const std::uint64_t digest = configDigest64(loadBenchScenario(config, a.config));
+  requireDataSheets(config);
   requireFreeAddress({a.lcm_url, a.channel});
   const OpenBuses buses(config);
   fmt::print(stderr,
