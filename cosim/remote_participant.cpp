@@ -123,6 +123,7 @@ void RemoteParticipant::exchange(WallDuration patience, WallDuration longest_wai
   ++statistics_.requests;
   const WallClock::time_point started = WallClock::now();
   WallClock::time_point now = started;
+  patient_since_ = started;
   for (int tries = 0;; ++tries) {
     if (options_.stop != nullptr && options_.stop->load()) {
       throw InterruptedError("stopped while waiting for " + options_.name);
@@ -132,7 +133,7 @@ void RemoteParticipant::exchange(WallDuration patience, WallDuration longest_wai
       if (!trouble.empty()) {
         throw LostParticipantError(options_.name, options_.name + " " + trouble);
       }
-      if (now - started >= patience) throwLost(now - started, tries);
+      if (now - patient_since_ >= patience) throwLost(now - patient_since_, tries);
       ++statistics_.repeated;
     }
     transport_.send(client_->pending().data(), client_->pending().size());
@@ -155,6 +156,10 @@ bool RemoteParticipant::replyBy(WallClock::time_point until, WallClock::time_poi
     switch (client_->receive(received_.data(), received_.size())) {
       case StepClient::Received::kReply:
         return true;
+      case StepClient::Received::kBusy:
+        patient_since_ = now;
+        if (options_.say) options_.say(client_->busyText());
+        break;
       case StepClient::Received::kIgnored:
         break;
       case StepClient::Received::kOtherVersion:
@@ -231,8 +236,9 @@ void RemoteParticipant::throwUnlessOk() const {
 
 void RemoteParticipant::throwLost(WallDuration waited, int tries) const {
   std::string hint;
+  if (!client_->busyText().empty()) hint = " The last it said: " + client_->busyText() + ".";
   if (client_->ignored().foreign > 0) {
-    hint = fmt::format(" {} messages of another run came instead: is the channel in use twice?",
+    hint += fmt::format(" {} messages of another run came instead: is the channel in use twice?",
                        client_->ignored().foreign);
   }
   throw LostParticipantError(

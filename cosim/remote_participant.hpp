@@ -23,6 +23,8 @@ struct RemoteOptions {
   std::chrono::milliseconds first_patience{30'000};
   /// Asked between tries: why the far end is known to be gone ("exited with code 2"), or empty.
   std::function<std::string()> peer_trouble;
+  /// Words for a person while the far end is long at work: "plant is busy: setting up the drives".
+  std::function<void(const std::string&)> say;
   /// Set by a signal handler: give up at once with InterruptedError.
   const std::atomic<bool>* stop = nullptr;
 };
@@ -79,6 +81,7 @@ class RemoteParticipant final : public Participant {
   mutable RetransmissionTimer timer_;
   mutable LinkStatistics statistics_;
   mutable Bytes received_;
+  mutable WallClock::time_point patient_since_{};  ///< the request, or the last sign of life after it
   bool reset_pending_ = false;
   SensorFrame sensors_;
   std::optional<TruthFrame> truth_;

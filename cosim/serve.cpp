@@ -27,7 +27,18 @@ class Host {
       : name_(participant.name()),
         transport_(transport),
         options_(options),
-        server_(participant, options.config_digest, drawSessionId()) {}
+        server_(participant, options.config_digest, drawSessionId()) {
+    if (options.busy == nullptr) return;
+    options.busy->connect([this](const std::string& doing) {
+      const Bytes* word = server_.stillWorking(doing);
+      transport_.send(word->data(), word->size());
+    });
+  }
+  ~Host() {
+    if (options_.busy != nullptr) options_.busy->connect({});
+  }
+  Host(const Host&) = delete;
+  Host& operator=(const Host&) = delete;
 
   ServeReport serve() {
     say("waiting on " + transport_.describe());

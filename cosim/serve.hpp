@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "cosim/busy_signal.hpp"
 #include "cosim/participant.hpp"
 #include "cosim/step_protocol.hpp"
 #include "cosim/transport.hpp"
@@ -25,6 +26,8 @@ struct ServeOptions {
   bool keep_serving = false;
   /// Set by a signal handler (SIGINT, SIGTERM): return at once.
   const std::atomic<bool>* stop = nullptr;
+  /// Told by the participant while a request takes it long; the master's patience begins anew then.
+  BusySignal* busy = nullptr;
   /// Words for a person, e.g. to print on stderr: session opened, session closed, ...
   std::function<void(const std::string&)> say;
 };

@@ -106,6 +106,11 @@ StepClient::Received StepClient::receive(const std::uint8_t* data, std::size_t s
     ++ignored_.old;
     return Received::kIgnored;
   }
+  if (candidate_.status == ballbot_msgs::step_reply::BUSY) {
+    busy_text_ = printableText(candidate_.text);
+    return Received::kBusy;
+  }
+  busy_text_.clear();
   std::swap(reply_, candidate_);
   reply_.text = printableText(reply_.text);
   waiting_ = false;

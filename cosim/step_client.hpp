@@ -39,12 +39,16 @@ class StepClient {
 
   enum class Received : std::uint8_t {
     kReply,         ///< the expected one: see reply()
+    kBusy,          ///< the far end is still at work on the request: see busyText()
     kIgnored,       ///< damaged, foreign or old; counted
     kOtherVersion,  ///< the expected one, from a program with other message definitions
     kSecondServer,  ///< from another process than the one that answered before
   };
   Received receive(const std::uint8_t* data, std::size_t size);
   const ballbot_msgs::step_reply& reply() const { return reply_; }
+
+  /// What the far end last said it was at work on; empty once it has replied.
+  const std::string& busyText() const { return busy_text_; }
 
   const IgnoredMessages& ignored() const { return ignored_; }
 
@@ -60,6 +64,7 @@ class StepClient {
   IgnoredMessages ignored_;
   ballbot_msgs::step_request request_{};
   ballbot_msgs::step_reply reply_{}, candidate_{};
+  std::string busy_text_;
   Bytes pending_;
 };
 

@@ -242,6 +242,11 @@ const Bytes* StepServer::answerOutside(const Header& header, std::int8_t status,
   return &outside_reply_;
 }
 
+const Bytes* StepServer::stillWorking(const std::string& doing) {
+  return answerOutside(request_.header, Reply::BUSY,
+                       fmt::format("{}: {}", participant_.name(), doing));
+}
+
 bool StepServer::retired(std::int64_t session) const {
   return std::find(retired_.begin(), retired_.end(), session) != retired_.end();
 }

@@ -56,6 +56,7 @@ void PlantLink::start() {
   // A plant that is served elsewhere runs already; one that we start needs time to set itself up.
   remote.first_patience = child_ ? std::max(options_.patience, std::chrono::milliseconds(30'000)) : options_.patience;
   remote.stop = options_.stop;
+  remote.say = options_.say;
   if (child_) {
     remote.peer_trouble = [this] { return troubleOfChild(); };
   }

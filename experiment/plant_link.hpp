@@ -37,6 +37,7 @@ class PlantLink {
     int core = -1;              ///< processor of the child; -1: any
     std::chrono::milliseconds patience{10'000};  ///< silence after which the plant counts as lost
     const std::atomic<bool>* stop = nullptr;
+    std::function<void(const std::string&)> say;  ///< of a plant that is long at work
   };
   PlantLink(const Scenario& scenario, const RunFolder& folder, Options options);
   /// Ends the child if it still lives, and clears away what it left if it had nothing to say.

@@ -95,6 +95,7 @@ PlantLink::Options linkOptions(const RunOptions& options, int core) {
   link.core = core;
   link.patience = options.patience;
   link.stop = options.stop;
+  link.say = options.say;
   return link;
 }
 

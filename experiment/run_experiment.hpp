@@ -42,6 +42,8 @@ struct RunOptions {
   /// Called once the folder is there and before anything is simulated.
   std::function<void(const RunFolder&)> started;
   std::function<void(SimTime now)> progress;
+  /// Words of a plant that is long at work, e.g. drives that are being set up.
+  std::function<void(const std::string&)> say;
 };
 
 struct RunResult {

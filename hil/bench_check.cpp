@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,135 +17,204 @@ namespace {
 
 using WallClock = std::chrono::steady_clock;
 
-/// SDO uploads from one node over one bus.
+/// SDO uploads from one node over one bus. What is not given is noted in the report.
 class Reader {
  public:
-  Reader(CanBus& bus, int node, std::chrono::milliseconds patience)
-      : bus_(bus), node_(node), patience_(patience) {}
+  Reader(CanBus& bus, int node, std::chrono::milliseconds patience, NodeReport& report)
+      : bus_(bus), node_(node), patience_(patience), report_(report) {}
 
-  std::optional<std::int64_t> number(std::uint16_t index, std::uint8_t sub = 0) {
-    if (!upload(index, sub)) return std::nullopt;
+  std::optional<std::int64_t> number(const char* what, std::uint16_t index, std::uint8_t sub = 0) {
+    if (!upload(what, {index, sub})) return std::nullopt;
     return static_cast<std::int64_t>(
         getLittleEndian(client_.data(), std::min<std::size_t>(client_.size(), 8)));
   }
-  std::string text(std::uint16_t index) {
-    if (!upload(index, 0)) return "";
-    return {reinterpret_cast<const char*>(client_.data()), client_.size()};
+  /// The number times `unit`.
+  std::optional<double> quantity(const char* what, double unit, std::uint16_t index,
+                                 std::uint8_t sub = 0) {
+    const auto value = number(what, index, sub);
+    if (!value) return std::nullopt;
+    return unit * static_cast<double>(*value);
+  }
+  std::optional<std::string> text(const char* what, std::uint16_t index) {
+    if (!upload(what, {index, 0})) return std::nullopt;
+    return std::string(reinterpret_cast<const char*>(client_.data()), client_.size());
   }
 
  private:
-  bool upload(std::uint16_t index, std::uint8_t sub) {
-    client_.upload({index, sub}, queue_);
-    const auto until = WallClock::now() + patience_;
+  bool upload(const char* what, ObjectAddress object) {
+    client_.upload(object, queue_);
+    exchange();
+    if (client_.status() == SdoClient::Status::kDone) return true;
+    report_.not_given.push_back(
+        client_.status() == SdoClient::Status::kAborted
+            ? fmt::format("{} {}: refused, {:08X} ({})", toText(object), what, client_.abortCode(),
+                          sdoAbortText(client_.abortCode()))
+            : fmt::format("{} {}: no answer within {} ms", toText(object), what,
+                          patience_.count()));
+    return false;
+  }
+
+  void exchange() {
+    auto until = WallClock::now() + patience_;
     CanFrame frame;
     while (client_.status() == SdoClient::Status::kBusy) {
       for (const CanFrame& out : queue_) bus_.send(out);
       queue_.clear();
       const auto left = until - WallClock::now();
-      if (left <= WallClock::duration::zero()) break;
+      if (left <= WallClock::duration::zero()) return;
       bus_.waitReadable(left);
       bool any = false;
       while (bus_.receive(frame)) {
         any = true;
-        client_.onFrame(frame, queue_);
+        // Every segment has the whole time.
+        if (client_.onFrame(frame, queue_)) until = WallClock::now() + patience_;
       }
       if (!any && bus_.descriptor() < 0) break;  // a bus in this process has nothing more to say
     }
     for (const CanFrame& out : queue_) bus_.send(out);
     queue_.clear();
-    return client_.status() == SdoClient::Status::kDone;
   }
 
   CanBus& bus_;
   int node_;
   std::chrono::milliseconds patience_;
+  NodeReport& report_;
   SdoClient client_{node_, 1 << 20};
   FrameQueue queue_;
 };
 
-void readIdentity(Reader& reader, NodeReport& report) {
-  report.found = reader.number(0x1000).has_value();
-  if (!report.found) return;
-  report.device = reader.text(0x1008);
-  report.firmware = reader.text(0x100A);
-  report.vendor = static_cast<std::uint32_t>(reader.number(0x1018, 1).value_or(0));
-  report.product = static_cast<std::uint32_t>(reader.number(0x1018, 2).value_or(0));
-  report.serial = static_cast<std::uint32_t>(reader.number(0x1018, 4).value_or(0));
-  report.error_register = reader.number(0x1001).value_or(0);
+std::optional<std::int64_t> readIdentity(Reader& reader, NodeReport& report) {
+  const auto type = reader.number("device type", 0x1000);
+  report.found = type.has_value();
+  if (!report.found) return type;
+  report.device = reader.text("device name", 0x1008);
+  report.firmware = reader.text("software version", 0x100A);
+  report.vendor = reader.number("vendor", 0x1018, 1);
+  report.product = reader.number("product code", 0x1018, 2);
+  report.serial = reader.number("serial number", 0x1018, 4);
+  report.error_register = reader.number("error register", 0x1001);
+  return type;
 }
 
-void compare(NodeReport& report, const char* what, double is, double configured) {
-  if (std::abs(is - configured) <= 1e-6 * std::abs(configured)) return;
-  report.disagreements.push_back(
-      fmt::format("{} is {:.6g}, configured {:.6g}", what, is, configured));
+void compare(NodeReport& report, const char* what, const std::optional<double>& is,
+             double configured) {
+  if (!is) {
+    report.disagreements.push_back(
+        fmt::format("{} was not given, configured {:.6g}", what, configured));
+  } else if (std::abs(*is - configured) > 1e-6 * std::abs(configured)) {
+    report.disagreements.push_back(
+        fmt::format("{} is {:.6g}, configured {:.6g}", what, *is, configured));
+  }
 }
 
-void readDrive(Reader& reader, const DriveConfig& drive, const BenchConfig& config,
-               NodeReport& report) {
-  const std::int64_t type = reader.number(0x1000).value_or(0);
+void compareMaxTorque(NodeReport& report, double limit_Nm) {
+  if (!report.max_torque_Nm) {
+    report.disagreements.push_back(
+        fmt::format("max torque was not given, the limit asks for {:.4g} Nm", limit_Nm));
+  } else if (*report.max_torque_Nm < limit_Nm * (1 - 1e-9)) {
+    report.disagreements.push_back(fmt::format("max torque is {:.4g} Nm, the limit asks for {:.4g}",
+                                               *report.max_torque_Nm, limit_Nm));
+  }
+}
+
+void readDrive(Reader& reader, std::int64_t type, const DriveConfig& drive,
+               const BenchConfig& config, NodeReport& report) {
   if ((type & 0xFFFF) != 402) {
     report.disagreements.push_back(fmt::format("device type {:08X} is no CiA 402 drive", type));
     return;
   }
-  report.rated_torque_Nm = 1e-3 * static_cast<double>(reader.number(0x6076).value_or(0));
-  report.max_torque_Nm =
-      report.rated_torque_Nm * static_cast<double>(reader.number(0x6072).value_or(0)) / 1000;
-  report.encoder_counts = reader.number(0x608F, 1).value_or(0);
-  report.supply_V = 1e-3 * static_cast<double>(reader.number(0x6079).value_or(0));
-  report.temperature_degC =
-      0.1 * static_cast<double>(static_cast<std::int16_t>(reader.number(0x2000).value_or(0)));
-  report.state = toText(driveState(static_cast<std::uint16_t>(reader.number(0x6041).value_or(0))));
-  const auto error = static_cast<std::uint16_t>(reader.number(0x603F).value_or(0));
-  if (error != 0) report.last_error = fmt::format("{:04X} {}", error, errorCodeText(error));
-  compare(report, "rated torque [Nm]", report.rated_torque_Nm, drive.scaling.torque_reference);
-  compare(report, "encoder increments", static_cast<double>(report.encoder_counts),
-          drive.scaling.encoder_counts);
-  if (report.max_torque_Nm < drive.limits.torque * (1 - 1e-9)) {
-    report.disagreements.push_back(fmt::format("max torque is {:.4g} Nm, the limit asks for {:.4g}",
-                                               report.max_torque_Nm, drive.limits.torque));
+  report.is_drive = true;
+  const ObjectAddress scale = drive.torque_reference_object;
+  report.rated_torque_Nm = reader.quantity("rated torque", 1e-3, 0x6076);
+  const std::optional<double> reference =
+      scale == ObjectAddress{0x6076, 0}
+          ? report.rated_torque_Nm
+          : reader.quantity("torque of 1000 counts", 1e-3, scale.index, scale.sub);
+  if (const auto most = reader.number("max torque", 0x6072); most && reference) {
+    report.max_torque_Nm = *reference * static_cast<double>(*most) / 1000;
   }
+  report.encoder_counts = reader.number("encoder increments", 0x608F, 1);
+  report.supply_V = reader.quantity("supply voltage", 1e-3, 0x6079);
+  if (const auto heat = reader.number("temperature", 0x2000)) {
+    report.temperature_degC = 0.1 * static_cast<double>(static_cast<std::int16_t>(*heat));
+  }
+  if (const auto word = reader.number("statusword", 0x6041)) {
+    report.state = toText(driveState(static_cast<std::uint16_t>(*word)));
+  }
+  const auto error = static_cast<std::uint16_t>(reader.number("error code", 0x603F).value_or(0));
+  if (error != 0) report.last_error = fmt::format("{:04X} {}", error, errorCodeText(error));
+  compare(report, scale.index == 0x6076 ? "rated torque [Nm]" : "torque of 1000 counts [Nm]",
+          reference, drive.scaling.torque_reference);
+  std::optional<double> counts;
+  if (report.encoder_counts) counts = static_cast<double>(*report.encoder_counts);
+  compare(report, "encoder increments", counts, drive.scaling.encoder_counts);
+  compareMaxTorque(report, drive.limits.torque);
+  if (!report.state) report.disagreements.push_back("statusword was not given");
   const std::int8_t mode =
       config.mode == DriveMode::kTorque ? kModeCyclicTorque : kModeCyclicPosition;
-  const std::int64_t modes = reader.number(0x6502).value_or(0);
-  if ((modes & supportedModeBit(mode)) == 0) {
-    report.disagreements.push_back(fmt::format("mode of operation {} is not supported", mode));
+  const auto modes = reader.number("supported modes", 0x6502);
+  if ((modes.value_or(0) & supportedModeBit(mode)) == 0) {
+    report.disagreements.push_back(
+        fmt::format("mode of operation {} is not {}", mode, modes ? "supported" : "promised"));
   }
+}
+
+/// That the device is the one its data sheet is of.
+void compareIdentity(const NamedDataSheet& named, NodeReport& report) {
+  if (!named || !report.found) return;
+  const auto compareNumber = [&](const char* what, const std::optional<std::int64_t>& is,
+                                 const std::optional<std::int64_t>& promised) {
+    if (!promised || !is || *is == *promised) return;
+    report.disagreements.push_back(
+        fmt::format("{} is {:#x}, {} says {:#x}", what, *is, named->file(), *promised));
+  };
+  compareNumber("vendor", report.vendor, named->vendorNumber());
+  compareNumber("product code", report.product, named->productNumber());
+}
+
+/// A report that knows where its node is.
+NodeReport reportOf(const std::string& name, int bus, int node, const NamedDataSheet& named) {
+  NodeReport report;
+  report.name = name;
+  report.bus = bus;
+  report.node = node;
+  if (named) {
+    report.data_sheet =
+        fmt::format("{}: {}, {}", named->file(), named->vendor(), named->product());
+  }
+  return report;
 }
 
 }  // namespace
 
 bool isEmulated(const NodeReport& node) noexcept {
-  return node.product == kEmulatedDrive || node.product == kEmulatedImu;
+  return isEmulatedDevice(node.vendor.value_or(-1), node.product.value_or(0));
 }
 
-std::vector<NodeReport> checkBench(const BenchConfig& config, const std::vector<CanBus*>& buses,
-                                   std::chrono::milliseconds patience) {
+std::vector<NodeReport> checkBench(const BenchConfig& config, const std::vector<CanBus*>& buses) {
+  const std::chrono::milliseconds patience(config.sdo_timeout_ms);
+  const auto bus = [&](int number) -> CanBus& { return *buses[static_cast<std::size_t>(number)]; };
   std::vector<NodeReport> reports;
   for (const DriveConfig& drive : config.drives) {
-    NodeReport report;
-    report.name = drive.name;
-    report.bus = drive.bus;
-    report.node = drive.node;
-    Reader reader(*buses[static_cast<std::size_t>(drive.bus)], drive.node, patience);
-    readIdentity(reader, report);
-    if (report.found) readDrive(reader, drive, config, report);
-    reports.push_back(report);
+    NodeReport report = reportOf(drive.name, drive.bus, drive.node, drive.data_sheet);
+    Reader reader(bus(drive.bus), drive.node, patience, report);
+    if (const auto type = readIdentity(reader, report)) {
+      readDrive(reader, *type, drive, config, report);
+    }
+    compareIdentity(drive.data_sheet, report);
+    reports.push_back(std::move(report));
   }
-  NodeReport imu;
-  imu.name = "IMU";
-  imu.bus = config.imu.bus;
-  imu.node = config.imu.node;
-  Reader reader(*buses[static_cast<std::size_t>(imu.bus)], imu.node, patience);
-  readIdentity(reader, imu);
-  if (imu.found) {
+  NodeReport imu = reportOf("IMU", config.imu.bus, config.imu.node, config.imu.data_sheet);
+  Reader reader(bus(imu.bus), imu.node, patience, imu);
+  if (readIdentity(reader, imu)) {
     compare(imu, "accelerometer resolution [m/s^2]",
-            1e-9 * static_cast<double>(reader.number(0x2004, 1).value_or(0)),
+            reader.quantity("accelerometer resolution", 1e-9, 0x2004, 1),
             config.imu.accel_resolution);
-    compare(imu, "gyro resolution [rad/s]",
-            1e-9 * static_cast<double>(reader.number(0x2004, 2).value_or(0)),
+    compare(imu, "gyro resolution [rad/s]", reader.quantity("gyro resolution", 1e-9, 0x2004, 2),
             config.imu.gyro_resolution);
   }
-  reports.push_back(imu);
+  compareIdentity(config.imu.data_sheet, imu);
+  reports.push_back(std::move(imu));
   return reports;
 }
 

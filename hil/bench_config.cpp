@@ -1,6 +1,7 @@
 #include "hil/bench_config.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <utility>
 
@@ -16,14 +17,38 @@ namespace {
 const char* const kNames[kDriveCount] = {"wheel 1", "wheel 2", "wheel 3",
                                          "arm 1",   "arm 2",   "arm 3"};
 
+/// The data sheet that `eds` names, relative to the file in which it stands.
+void readDataSheet(ConfigReader& in, NamedDataSheet& out) {
+  const ConfigNode* node = in.raw("eds");
+  if (node == nullptr) return;
+  const std::filesystem::path file = in.text("eds");
+  const auto beside = std::filesystem::path(node->where().source).parent_path() / file;
+  out.sheet = std::make_shared<const DataSheet>(
+      DataSheet::read(file.is_absolute() ? file.string() : beside.string()));
+  out.where = toText(node->where());
+}
+
 /// Keys that `drive_defaults` and every entry of `drives` may have.
 void readDriveValues(ConfigReader& in, DriveConfig& d) {
+  readDataSheet(in, d.data_sheet);
   DriveScaling& s = d.scaling;
+  if (in.has("torque_reference_object")) {
+    try {
+      d.torque_reference_object = readObjectAddress(in.text("torque_reference_object"));
+    } catch (const InputError& e) {
+      throw InputError(in.at("torque_reference_object") + e.what());
+    }
+  }
+  d.quick_stop_option = in.integerOr("quick_stop_option", d.quick_stop_option, {0, 8});
+  d.fault_reaction_option = in.integerOr("fault_reaction_option", d.fault_reaction_option, {0, 4});
+  // 0, no action, would let a drive go on without its master.
+  d.abort_connection_option =
+      in.integerOr("abort_connection_option", d.abort_connection_option, {1, 3});
   s.torque_reference = in.numberOr("rated_torque_Nm", s.torque_reference, {0.001, 1000});
   s.encoder_counts = in.numberOr("encoder_counts_per_turn", s.encoder_counts, {16, 1e9});
   s.motor_encoder_counts =
       in.numberOr("motor_encoder_counts_per_turn", s.motor_encoder_counts, {16, 1e9});
-  s.velocity_unit = in.numberOr("velocity_unit_rad_per_s", kTwoPi / s.encoder_counts, {1e-9, 10});
+  s.velocity_unit = in.numberOr("velocity_unit_rad_per_s", s.velocity_unit, {1e-9, 10});
   s.sign = in.numberOr("sign", s.sign, {-1, 1});
   if (std::abs(s.sign) != 1) throw InputError(in.at("sign") + "must be 1 or -1");
   s.offset = kRadPerDeg * in.numberOr("offset_deg", s.offset / kRadPerDeg, {-3600, 3600});
@@ -48,6 +73,7 @@ void readDrives(ConfigReader& in, BenchConfig& c) {
   defaults.scaling.encoder_counts = 14'400;
   defaults.scaling.motor_encoder_counts = 720'000;
   defaults.scaling.spring_stiffness = 350;
+  defaults.scaling.velocity_unit = 0;  // until one is given
   defaults.off_switch = "the emergency stop of the bench (STO)";
   defaults.limits = {4, 2000, 12, -1e6, 1e6};
   if (in.has("drive_defaults")) {
@@ -69,6 +95,9 @@ void readDrives(ConfigReader& in, BenchConfig& c) {
     drive.bus = d.integerOr("bus", 0, {0, last_bus});
     drive.node = d.integer("node", {1, 126});
     readDriveValues(d, drive);
+    if (drive.scaling.velocity_unit == 0) {
+      drive.scaling.velocity_unit = kTwoPi / drive.scaling.encoder_counts;
+    }
     if (!nodes.insert({drive.bus, drive.node}).second || drive.node == c.master_node) {
       throw InputError(fmt::format("{}{} is taken on bus {}", d.at("node"), drive.node, drive.bus));
     }
@@ -178,7 +207,9 @@ void readBuses(ConfigReader& in, BenchConfig& c) {
   for (ConfigReader& b : in.list("buses")) {
     BusConfig bus;
     bus.address = b.text("address");
-    bus.bitrate_kbps = b.integerOr("bitrate_kbps", bus.bitrate_kbps, {10, 1000});
+    CanBusSettings& s = bus.settings;
+    s.bitrate_kbps = b.integerOr("bitrate_kbps", s.bitrate_kbps, {10, 1000});
+    s.acknowledges = b.booleanOr("acknowledges", s.acknowledges);
     b.finish();
     c.buses.push_back(bus);
   }
@@ -228,12 +259,15 @@ BenchConfig readBenchConfig(const ConfigNode& tree) {
   c.master_timeout_ms = in.integerOr("master_timeout_ms", c.master_timeout_ms, {2, 10'000});
   c.drive_heartbeat_ms = in.integerOr("drive_heartbeat_ms", c.drive_heartbeat_ms, {1, 1000});
   c.output_deadline_ms = in.integerOr("output_deadline_ms", c.output_deadline_ms, {0, 1000});
+  c.sdo_timeout_ms = in.integerOr("sdo_timeout_ms", c.sdo_timeout_ms, {10, 5000});
+  c.boot_timeout_ms = in.integerOr("boot_timeout_ms", c.boot_timeout_ms, {100, 60'000});
   if (c.master_timeout_ms < 2 * c.master_heartbeat_ms) {
     throw InputError(in.at("master_timeout_ms") + "must be at least twice master_heartbeat_ms");
   }
   readBuses(in, c);
   if (in.has("imu")) {
     ConfigReader imu = in.child("imu");
+    readDataSheet(imu, c.imu.data_sheet);
     c.imu.bus = imu.integerOr("bus", 0, {0, static_cast<double>(c.buses.size()) - 1});
     c.imu.node = imu.integerOr("node", c.imu.node, {1, 126});
     c.imu.accel_resolution =

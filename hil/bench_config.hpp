@@ -2,20 +2,23 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/config_node.hpp"
 #include "core/time.hpp"
 #include "hil/bench_signals.hpp"
+#include "hil/can_bus.hpp"
 #include "hil/drive_scaling.hpp"
+#include "hil/eds/data_sheet.hpp"
 #include "hil/pdo_mapping.hpp"
 
 namespace ballbot {
 
 struct BusConfig {
   std::string address;  ///< slcan:/dev/ttyACM0 or socketcan:can0
-  int bitrate_kbps = 1000;
+  CanBusSettings settings;
 };
 
 /// Where the PD law of the joints is closed.
@@ -31,11 +34,25 @@ struct DriveLimits {
   double position_low = 0, position_high = 0;  ///< [rad]; likewise
 };
 
+/// What a drive's vendor says of it, and where the bench file says so; may be none.
+struct NamedDataSheet {
+  std::shared_ptr<const DataSheet> sheet;
+  std::string where;  ///< "bench.yaml:14:3"
+  explicit operator bool() const noexcept { return sheet != nullptr; }
+  const DataSheet* operator->() const noexcept { return sheet.get(); }
+};
+
 struct DriveConfig {
   std::string name;        ///< "wheel 1"
   std::string off_switch;  ///< what a person pulls to take its power: "STO of the wheels, S1"
   int bus = 0, node = 0;
+  NamedDataSheet data_sheet;
   DriveScaling scaling;
+  /// The object that says what torque 1000 counts are, in mNm: rated torque, or a vendor's own.
+  ObjectAddress torque_reference_object{0x6076, 0};
+  int quick_stop_option = 2;        ///< 605A
+  int fault_reaction_option = 2;    ///< 605E
+  int abort_connection_option = 1;  ///< 6007: 1 fault, 2 disable voltage, 3 quick stop
   DriveLimits limits;
   double stiffness = 0, damping = 0;  ///< of the drive's position loop in kPosition mode
   // Its response to a torque command, as `ballbot identify` finds it (second order).
@@ -45,6 +62,7 @@ struct DriveConfig {
 
 struct ImuConfig {
   int bus = 0, node = 7;
+  NamedDataSheet data_sheet;
   double accel_resolution = 4.79e-3;  ///< [m/s^2] per count
   double gyro_resolution = 1.065e-3;  ///< [rad/s] per count
 };
@@ -97,6 +115,8 @@ struct BenchConfig {
   bool synchronous_outputs = false;  ///< RPDOs act at the next SYNC instead of on reception
   int master_heartbeat_ms = 5, master_timeout_ms = 25;  ///< the drives' watch over the master
   int drive_heartbeat_ms = 10;
+  int sdo_timeout_ms = 500;    ///< for one answer, in the set-up and in `hil --check`
+  int boot_timeout_ms = 2000;  ///< from a reset to the boot-up message
   int output_deadline_ms = 15;      ///< RPDO event timer in the drives; 0: none
   std::vector<PdoMapping> outputs;  ///< RPDO1..
   std::vector<PdoMapping> inputs;   ///< TPDO1..

@@ -5,7 +5,6 @@
 namespace ballbot {
 namespace {
 
-constexpr int kBootMs = 2000, kSdoMs = 500;
 constexpr std::uint8_t kImuPdos = 2, kAllImuPdos = 3;
 constexpr std::uint8_t kAccelBytes = 8, kGyroBytes = 6;
 
@@ -22,7 +21,7 @@ int tpdoOf(const CanFrame& f, int node) noexcept {
 
 BenchMaster::BenchMaster(const BenchConfig& config)
     : config_(config), outbox_(config.buses.size()) {
-  const int sdo = config.cyclesOf(kSdoMs);
+  const int sdo = config.cyclesOf(config.sdo_timeout_ms);
   for (const DriveConfig& d : config.drives) {
     links_.emplace_back(d.node, driveSetup(config, d), sdo, config.safety.heartbeat_cycles);
   }
@@ -52,7 +51,7 @@ void BenchMaster::pushAll(const CanFrame& frame) noexcept {
 
 void BenchMaster::reset() noexcept {
   running_ = false;
-  for (NodeLink& link : links_) link.expectBootUp(config_.cyclesOf(kBootMs));
+  for (NodeLink& link : links_) link.expectBootUp(config_.cyclesOf(config_.boot_timeout_ms));
   pushAll(nmtFrame(NmtCommand::kResetNode, 0));
 }
 

@@ -2,7 +2,9 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "hil/bench.hpp"
 #include "hil/bench_signals.hpp"
@@ -41,9 +43,13 @@ class BenchRunner {
   /// Looked at in every wait, whatever state the bench is in; must outlive this.
   void setStopFlag(const std::atomic<bool>* stop) noexcept { stop_ = stop; }
 
+  /// Told, by the thread that engages, what it is waiting for.
+  void setSay(std::function<void(const std::string&)> say) { say_ = std::move(say); }
+
  protected:
   bool stopWanted() const noexcept { return stop_ != nullptr && stop_->load(); }
   const std::atomic<bool>* stop_ = nullptr;
+  std::function<void(const std::string&)> say_;
 };
 
 }  // namespace ballbot

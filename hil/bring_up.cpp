@@ -1,6 +1,8 @@
 #include "hil/bring_up.hpp"
 
-#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
 
 #include "core/error.hpp"
 
@@ -15,22 +17,34 @@ void requireNoTrouble(const BenchMaster& master) {
   }
 }
 
+/// "still setting up, 120 of 410 steps; node 4: 12 of 61, 6072:00 max torque"
+std::string progressText(const BenchMaster& master) {
+  std::size_t done = 0, all = 0;
+  std::string slowest;
+  for (int i = 0; i <= kDriveCount; ++i) {
+    done += master.link(i).stepsDone();
+    all += master.link(i).stepCount();
+    if (slowest.empty()) slowest = master.link(i).progressText();
+  }
+  return fmt::format("still setting up, {} of {} steps; {}", done, all, slowest);
+}
+
 }  // namespace
 
-void bringUp(Bench& bench, BenchIo& io, std::chrono::nanoseconds patience,
-             const std::atomic<bool>* stop) {
+void bringUp(Bench& bench, BenchIo& io, int slowness, const std::atomic<bool>* stop,
+             const std::function<void(const std::string&)>& say) {
   BenchMaster& master = bench.master();
-  const auto cycle = std::chrono::nanoseconds(bench.config().cycle);
+  const auto cycle = slowness * std::chrono::nanoseconds(bench.config().cycle);
   // What was said before the reset, boot-up messages of switching on among it, is not for us.
   io.collect(std::chrono::steady_clock::now());
   master.reset();
   io.send();
   while (!master.configured()) {
-    const auto until = std::chrono::steady_clock::now() + std::max(cycle, patience);
-    if (!io.collect(until)) {
+    if (!io.collect(std::chrono::steady_clock::now() + cycle)) {
       master.endCycle();
       io.send();
     }
+    if (say) say(progressText(master));
     requireNoTrouble(master);
     if (stop != nullptr && stop->load()) {
       throw InterruptedError("bench: stopped during set-up; no drive was switched on");

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
+#include <functional>
+#include <string>
 
 #include "hil/bench.hpp"
 #include "hil/bench_io.hpp"
@@ -9,12 +10,13 @@
 namespace ballbot {
 
 /// Resets and configures all nodes of a bench and starts them.
-/// @param patience  wall-clock time without an answer that counts as one cycle, if longer than one;
-///                  time-outs are counted in cycles
+/// @param slowness  periods without an answer that count as one cycle: time-outs are counted in
+///                  cycles, and longer where nothing depends on them
 /// @param stop      ends it between two answers; null: nothing does
+/// @param say       is told again and again how far it is; may be empty
 /// @throw LostParticipantError naming the node and what it refused; InterruptedError.
-void bringUp(Bench& bench, BenchIo& io, std::chrono::nanoseconds patience,
-             const std::atomic<bool>* stop = nullptr);
+void bringUp(Bench& bench, BenchIo& io, int slowness, const std::atomic<bool>* stop = nullptr,
+             const std::function<void(const std::string&)>& say = {});
 
 /// Throws what is to be said about a bench that has come down by itself.
 /// @throw TorqueNotOffError if a drive has not said that it is off, else LostParticipantError if

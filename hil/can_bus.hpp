@@ -8,6 +8,12 @@
 
 namespace ballbot {
 
+/// How a bus is to be run.
+struct CanBusSettings {
+  int bitrate_kbps = 1000;
+  bool acknowledges = true;  ///< false: an slcan adapter that answers no command
+};
+
 /// What a bus has counted since it was opened.
 struct CanCounters {
   std::int64_t sent = 0;       ///< frames handed over

@@ -50,12 +50,29 @@ void setUpPdo(Script& s, bool transmit, int number, int node, const PdoMapping* 
   s.write(parameters, 1, 4, id, "PDO on");
 }
 
-// Between two steps nobody watches the time, and a drive holds what it was told last. Only drives
-// whose clock is SYNC may be told so.
-void requireEmulated(Script& s, const BenchConfig& bench, std::int64_t product) {
-  if (!bench.stepped) return;
-  s.require(SetupStep::Kind::kExpect, 0x1018, 2, product,
-            "product code (stepped: true is for emulated drives alone, real ones need false)");
+bool isEmulated(const DataSheet& sheet) {
+  return isEmulatedDevice(sheet.vendorNumber().value_or(-1), sheet.productNumber().value_or(0));
+}
+
+/// That the device is the one its data sheet is of, and that it is an emulated one where it must be:
+/// between two steps nobody watches the time, and a drive holds what it was told last. Only drives
+/// whose clock is SYNC may be told so.
+void requireIdentity(Script& s, const BenchConfig& bench, const NamedDataSheet& data_sheet,
+                     std::int64_t emulated_product) {
+  const DataSheet* sheet = data_sheet.sheet.get();
+  if (bench.stepped) {
+    const bool known = sheet != nullptr && isEmulated(*sheet);
+    s.require(SetupStep::Kind::kExpect, 0x1018, 2,
+              known ? *sheet->productNumber() : emulated_product,
+              "product code (stepped: true is for emulated drives alone, real ones need false)");
+  } else if (sheet != nullptr && sheet->productNumber()) {
+    s.require(SetupStep::Kind::kExpect, 0x1018, 2, *sheet->productNumber(),
+              "product code, by its data sheet");
+  }
+  if (sheet != nullptr && sheet->vendorNumber().value_or(0) != 0) {
+    s.require(SetupStep::Kind::kExpect, 0x1018, 1, *sheet->vendorNumber(),
+              "vendor, by its data sheet");
+  }
 }
 
 void setUpHeartbeats(Script& s, const BenchConfig& bench) {
@@ -75,10 +92,12 @@ std::vector<SetupStep> driveSetup(const BenchConfig& bench, const DriveConfig& d
   const DriveScaling& scale = drive.scaling;
   Script s;
   s.require(Kind::kExpect, 0x1000, 0, kServoDrive, "device type of a CiA 402 servo drive");
-  requireEmulated(s, bench, kEmulatedDrive);
+  requireIdentity(s, bench, drive.data_sheet, kEmulatedDrive);
   s.require(Kind::kExpectBits, 0x6502, 0, supportedModeBit(mode), "supported drive modes");
-  s.require(Kind::kExpect, 0x6076, 0, std::llround(1000 * scale.torque_reference),
-            "rated torque in mNm");
+  const ObjectAddress reference = drive.torque_reference_object;
+  s.require(Kind::kExpect, reference.index, reference.sub,
+            std::llround(1000 * scale.torque_reference),
+            reference.index == 0x6076 ? "rated torque in mNm" : "torque of 1000 counts in mNm");
   s.watch();
   s.require(Kind::kExpect, 0x608F, 1, std::llround(scale.encoder_counts), "encoder increments");
   s.watch();
@@ -94,10 +113,10 @@ std::vector<SetupStep> driveSetup(const BenchConfig& bench, const DriveConfig& d
   }
   setUpHeartbeats(s, bench);
   s.write(0x1029, 1, 1, 0, "behaviour without the master");
-  s.write(0x6007, 0, 2, 1, "abort connection option");
+  s.write(0x6007, 0, 2, drive.abort_connection_option, "abort connection option");
   s.watch();
-  s.write(0x605A, 0, 2, 2, "quick stop option");
-  s.write(0x605E, 0, 2, 2, "fault reaction option");
+  s.write(0x605A, 0, 2, drive.quick_stop_option, "quick stop option");
+  s.write(0x605E, 0, 2, drive.fault_reaction_option, "fault reaction option");
   s.write(0x6072, 0, 2, limit, "max torque");
   s.watch();
   const std::int64_t ns = bench.cycle.count();
@@ -117,7 +136,7 @@ std::vector<SetupStep> driveSetup(const BenchConfig& bench, const DriveConfig& d
 std::vector<SetupStep> imuSetup(const BenchConfig& bench) {
   using Kind = SetupStep::Kind;
   Script s;
-  requireEmulated(s, bench, kEmulatedImu);
+  requireIdentity(s, bench, bench.imu.data_sheet, kEmulatedImu);
   s.require(Kind::kExpect, 0x2004, 1, std::llround(1e9 * bench.imu.accel_resolution),
             "accelerometer resolution in 1e-9 m/s^2");
   s.require(Kind::kExpect, 0x2004, 2, std::llround(1e9 * bench.imu.gyro_resolution),

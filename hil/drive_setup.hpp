@@ -10,7 +10,11 @@
 namespace ballbot {
 
 /// Product codes (1018:02) of the emulator's nodes.
-constexpr std::uint32_t kEmulatedDrive = 0xBA11, kEmulatedImu = 0xBA12;
+constexpr std::int64_t kEmulatedDrive = 0xBA11, kEmulatedImu = 0xBA12;
+/// Vendor-ID 0 belongs to nobody: emulated devices have it, with products of a range.
+constexpr bool isEmulatedDevice(std::int64_t vendor, std::int64_t product) noexcept {
+  return vendor == 0 && product >= 0xBA10 && product <= 0xBA1F;
+}
 
 /// One SDO transfer of a node's set-up, and what must come of it.
 struct SetupStep {

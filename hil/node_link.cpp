@@ -38,7 +38,6 @@ bool NodeLink::awaitsAnswer() const noexcept {
 
 bool NodeLink::onFrame(const CanFrame& frame, FrameQueue& out) noexcept {
   if (const auto beat = readHeartbeat(frame); beat && beat->node == node_) {
-    nmt_state_ = beat->state;
     if (phase_ == Phase::kBooting && beat->state == NmtState::kBootUp) {
       phase_ = Phase::kConfiguring;
       nextStep(out);
@@ -54,6 +53,7 @@ bool NodeLink::onFrame(const CanFrame& frame, FrameQueue& out) noexcept {
     } else if (beat->state == NmtState::kBootUp) {
       fail(NodeTrouble::kReboot);
     } else if (seen_operational_) {
+      if (trouble_ == NodeTrouble::kNone) left_for_ = beat->state;
       fail(NodeTrouble::kLeftOperational);
     }
     return true;
@@ -139,6 +139,14 @@ std::optional<NodeLink::Answer> NodeLink::takeAnswer() noexcept {
   return answer;
 }
 
+std::string NodeLink::progressText() const {
+  if (phase_ == Phase::kBooting) return fmt::format("node {}: waiting for its boot-up", node_);
+  if (step_ == setup_.size()) return "";
+  const SetupStep& step = setup_[step_];
+  return fmt::format("node {}: {} of {}, {} {}", node_, step_, setup_.size(),
+                     toText(step.object), step.what);
+}
+
 std::string NodeLink::troubleText() const {
   switch (trouble_) {
     case NodeTrouble::kNone:
@@ -149,7 +157,7 @@ std::string NodeLink::troubleText() const {
     case NodeTrouble::kReboot:
       return fmt::format("node {} has started anew by itself", node_);
     case NodeTrouble::kLeftOperational:
-      return fmt::format("node {} is {}, not operational", node_, toText(nmt_state_));
+      return fmt::format("node {} left operational by itself: it said that it is {}", node_, toText(left_for_));
     case NodeTrouble::kHeartbeatLost:
       return fmt::format("node {}: no heartbeat for {} cycles", node_, heartbeat_cycles_);
     case NodeTrouble::kEmergency:

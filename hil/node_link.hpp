@@ -61,6 +61,11 @@ class NodeLink {
   const Emergency& emergency() const noexcept { return emergency_; }
   /// Which answer is outstanding within a cycle.
   bool awaitsAnswer() const noexcept;
+  /// Steps of the set-up that are done, and all of them.
+  std::size_t stepsDone() const noexcept { return step_; }
+  std::size_t stepCount() const noexcept { return setup_.size(); }
+  /// Where the set-up stands: "node 4: 12 of 61, 6072:00 max torque"; "" once it is done.
+  std::string progressText() const;
   /// Set-up trouble in words: "6076:00 rated torque in mNm is 5000, configured 20000".
   std::string troubleText() const;
 
@@ -80,7 +85,7 @@ class NodeLink {
   std::int64_t found_ = 0;
   int waited_ = 0, patience_ = 0;
   bool seen_operational_ = false;
-  NmtState nmt_state_ = NmtState::kBootUp;
+  NmtState left_for_ = NmtState::kBootUp;  ///< of kLeftOperational, whatever it says later
   Emergency emergency_{};
 };
 

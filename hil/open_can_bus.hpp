@@ -9,6 +9,6 @@ namespace ballbot {
 
 /// The bus a configuration names: "slcan:/dev/ttyACM0" or "socketcan:can0".
 /// @throw InputError for another kind, or if it cannot be opened.
-std::unique_ptr<CanBus> openCanBus(const std::string& address, int bitrate_kbps);
+std::unique_ptr<CanBus> openCanBus(const std::string& address, const CanBusSettings& settings = {});
 
 }  // namespace ballbot

@@ -45,6 +45,20 @@ PdoField PdoMapping::find(ObjectAddress object) const noexcept {
   return {};
 }
 
+ObjectAddress readObjectAddress(const std::string& text) {
+  bool good = text.size() == 7 && text[4] == ':';
+  for (std::size_t i = 0; good && i < text.size(); ++i) {
+    good = i == 4 || std::isxdigit(static_cast<unsigned char>(text[i])) != 0;
+  }
+  if (!good) {
+    throw InputError(fmt::format(
+        "'{}' is no object; must be index and sub-index in hexadecimal digits, e.g. \"6076:00\"",
+        text));
+  }
+  return {static_cast<std::uint16_t>(std::strtoul(text.c_str(), nullptr, 16)),
+          static_cast<std::uint8_t>(std::strtoul(text.c_str() + 5, nullptr, 16))};
+}
+
 PdoEntry readPdoEntry(const std::string& text) {
   bool hex = text.size() == 8;
   for (const char c : text) hex = hex && std::isxdigit(static_cast<unsigned char>(c)) != 0;

@@ -47,6 +47,8 @@ class PdoMapping {
   std::uint8_t bytes_ = 0;
 };
 
+/// Reads "6076:00". @throw InputError that says what came.
+ObjectAddress readObjectAddress(const std::string& text);
 /// Reads "60640020". @throw InputError that names what came.
 PdoEntry readPdoEntry(const std::string& text);
 

@@ -77,7 +77,7 @@ void RealtimeRunner::requireGoodEnd() {
 void RealtimeRunner::start() {
   throwIfFault();
   if (running_) return;
-  bringUp(bench_, io_, std::chrono::nanoseconds(0), stop_);
+  bringUp(bench_, io_, 1, stop_, say_);
   running_ = true;
   thread_ = std::thread([this] { loop(); });
 }
@@ -106,6 +106,7 @@ void RealtimeRunner::engage() {
     throwIfFault();
     throwIfStopped();
     if (samples_.pop(last_)) return;
+    if (say_) say_("waiting for drives that are enabled and a robot at rest");
     if (clock_.now() - begun > kRestPatienceMs * 1'000'000LL) {
       release();
       throw LostParticipantError(

@@ -146,31 +146,65 @@ bool SdoClient::onFrame(const CanFrame& frame, FrameQueue& out) noexcept {
   if (frame.id != kCobSdoToClient + static_cast<std::uint32_t>(node_)) return false;
   if (status_ != Status::kBusy) return true;  // nobody waits for it
   const int answer = specifier(frame.data[0]);
+  const bool initiates = answer == kScsUpload || answer == kScsDownload;
+  if (initiates && !answersRequest(frame)) return true;  // of an earlier transfer
   if (answer == kScsAbort) {
     if (!answersRequest(frame)) return true;  // of an earlier transfer
     abort_code_ = static_cast<std::uint32_t>(getLittleEndian(&frame.data[4], 4));
     finish(Status::kAborted);
     return true;
   }
-  silent_ticks_ = 0;
-  if (phase_ == Phase::kUploadStart && answer == kScsUpload) {
-    if (answersRequest(frame)) onUploadStart(frame, out);
-  } else if (phase_ == Phase::kUploadSegment && answer == kScsUploadSegment) {
-    onUploadSegment(frame, out);
-  } else if (phase_ == Phase::kDownloadStart && answer == kScsDownload) {
-    if (!answersRequest(frame)) return true;
-    if (size_ <= kExpedited) {
-      finish(Status::kDone);
-    } else {
-      phase_ = Phase::kDownloadSegment;
-      sendSegment(out);
-    }
-  } else if (phase_ == Phase::kDownloadSegment && answer == kScsDownloadSegment) {
-    onDownloadSegment(frame, out);
-  } else {
+  // Some adapters show a frame twice. A copy is recognised where it does not fit; where it fits it
+  // says what the first one said.
+  const bool copy = frame == taken_;
+  const bool segment = phase_ == Phase::kUploadSegment || phase_ == Phase::kDownloadSegment;
+  const bool wrong_toggle = segment && ((frame.data[0] & kToggle) != 0) != toggle_;
+  if (copy && (!fits(answer) || wrong_toggle)) return true;
+  if (!fits(answer)) {
     abort(kSdoBadCommand, out);
+    return true;
+  }
+  taken_ = frame;
+  silent_ticks_ = 0;
+  switch (phase_) {
+    case Phase::kUploadStart:
+      onUploadStart(frame, out);
+      break;
+    case Phase::kUploadSegment:
+      onUploadSegment(frame, out);
+      break;
+    case Phase::kDownloadStart:
+      if (size_ <= kExpedited) {
+        finish(Status::kDone);
+      } else {
+        phase_ = Phase::kDownloadSegment;
+        sendSegment(out);
+      }
+      break;
+    case Phase::kDownloadSegment:
+      onDownloadSegment(frame, out);
+      break;
+    case Phase::kNone:
+      break;
   }
   return true;
+}
+
+// Whether the answer is of the kind that the transfer waits for.
+bool SdoClient::fits(int answer) const noexcept {
+  switch (phase_) {
+    case Phase::kUploadStart:
+      return answer == kScsUpload;
+    case Phase::kUploadSegment:
+      return answer == kScsUploadSegment;
+    case Phase::kDownloadStart:
+      return answer == kScsDownload;
+    case Phase::kDownloadSegment:
+      return answer == kScsDownloadSegment;
+    case Phase::kNone:
+      return false;
+  }
+  return false;
 }
 
 void SdoClient::onUploadStart(const CanFrame& frame, FrameQueue& out) noexcept {

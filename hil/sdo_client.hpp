@@ -65,6 +65,7 @@ class SdoClient {
   void onDownloadSegment(const CanFrame& frame, FrameQueue& out) noexcept;
   void sendSegment(FrameQueue& out) noexcept;
   bool answersRequest(const CanFrame& frame) const noexcept;
+  bool fits(int answer) const noexcept;
 
   int node_, timeout_ticks_;
   int silent_ticks_ = 0;
@@ -76,6 +77,7 @@ class SdoClient {
   std::size_t announced_ = 0;  ///< size the server has told, 0 if none
   bool toggle_ = false;
   std::uint32_t abort_code_ = 0;
+  CanFrame taken_;  ///< the last answer that was acted on
 };
 
 }  // namespace ballbot

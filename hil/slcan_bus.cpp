@@ -1,6 +1,7 @@
 #include "hil/slcan_bus.hpp"
 
 #include <cstring>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -29,8 +30,8 @@ char rateDigit(const std::string& device, int bitrate_kbps) {
 
 }  // namespace
 
-SlcanBus::SlcanBus(const std::string& device, int bitrate_kbps)
-    : bitrate_kbps_(bitrate_kbps), rate_(rateDigit(device, bitrate_kbps)), port_(device) {
+SlcanBus::SlcanBus(const std::string& device, const CanBusSettings& settings)
+    : settings_(settings), rate_(rateDigit(device, settings.bitrate_kbps)), port_(device) {
   // Ends whatever an earlier host left half written, and drops what the adapter says to that.
   port_.write("\r\r", 2);
   while (port_.waitReadable(kSettling) && up_) {
@@ -56,6 +57,11 @@ void SlcanBus::command(const std::string& line, bool may_be_refused) {
     throw InputError(
         fmt::format("{}: cannot write to the adapter. Is it plugged in?", port_.path()));
   }
+  if (!settings_.acknowledges) {  // time to act on it, whatever it says
+    std::this_thread::sleep_for(kSettling);
+    while (next() != SlcanParser::Item::kNone) continue;
+    return;
+  }
   const auto until = WallClock::now() + kReplyTimeout;
   while (WallClock::now() < until && up_) {
     const SlcanParser::Item item = next();
@@ -67,7 +73,8 @@ void SlcanBus::command(const std::string& line, bool may_be_refused) {
     if (item == SlcanParser::Item::kNone) port_.waitReadable(milliseconds(50));
   }
   throw InputError(
-      fmt::format("{}: no answer to '{}' within {} ms. Does the adapter speak slcan (LAWICEL)?",
+      fmt::format("{}: no answer to '{}' within {} ms. Does the adapter speak slcan (LAWICEL)? If it "
+                  "does but acknowledges nothing, say so: `acknowledges: false` for this bus",
                   port_.path(), line, kReplyTimeout.count()));
 }
 
@@ -140,7 +147,8 @@ void SlcanBus::fill() noexcept {
 }
 
 std::string SlcanBus::describe() const {
-  return fmt::format("slcan on {}, {} kbit/s", port_.path(), bitrate_kbps_);
+  return fmt::format("slcan on {}, {} kbit/s{}", port_.path(), settings_.bitrate_kbps,
+                     settings_.acknowledges ? "" : ", an adapter that acknowledges nothing");
 }
 
 }  // namespace ballbot

@@ -14,9 +14,11 @@ namespace ballbot {
 class SlcanBus final : public CanBus {
  public:
   /// Opens the device, closes whatever channel was open, sets the bit rate and opens the channel.
-  /// @param bitrate_kbps 10, 20, 50, 100, 125, 250, 500, 800 or 1000
+  /// @param settings  bit rate 10, 20, 50, 100, 125, 250, 500, 800 or 1000 kbit/s. Of an adapter that
+  ///                  acknowledges nothing no answer is expected; whether it is one then shows only
+  ///                  by the nodes behind it
   /// @throw InputError as SerialPort, for another bit rate, or if the adapter does not answer.
-  SlcanBus(const std::string& device, int bitrate_kbps);
+  SlcanBus(const std::string& device, const CanBusSettings& settings);
   ~SlcanBus() override;
 
   bool send(const CanFrame& frame) noexcept override;
@@ -35,7 +37,7 @@ class SlcanBus final : public CanBus {
   void flush() noexcept;
   void command(const std::string& line, bool may_be_refused);
 
-  int bitrate_kbps_;
+  CanBusSettings settings_;
   char rate_;  ///< digit of the S command
   SerialPort port_;
   SlcanParser parser_;

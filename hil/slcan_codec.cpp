@@ -4,8 +4,10 @@ namespace ballbot {
 namespace {
 
 constexpr char kCarriageReturn = '\r';
+constexpr char kLineFeed = '\n';
 constexpr char kBell = '\a';
-constexpr std::size_t kTimestampDigits = 4;
+// LAWICEL: milliseconds of the minute; other firmware: microseconds.
+constexpr std::size_t kTimestampDigits = 4, kLongTimestampDigits = 8;
 
 int hexValue(char c) noexcept {
   if (c >= '0' && c <= '9') return c - '0';
@@ -46,6 +48,7 @@ std::size_t encodeSlcan(const CanFrame& frame, std::array<char, kSlcanLineMax>& 
 }
 
 SlcanParser::Item SlcanParser::take(char c) noexcept {
+  if (c == kLineFeed && length_ == 0) return Item::kNone;  // some adapters end lines with CR LF
   if (c == kBell) {  // also ends a line that was cut short
     length_ = 0;
     too_long_ = false;
@@ -103,11 +106,10 @@ bool SlcanParser::parseFrame() noexcept {
   const std::size_t start = 2 + id_digits;
   const std::size_t data_digits = frame.remote ? 0 : 2U * frame.size;
   std::uint32_t value = 0;
-  if (length_ == start + data_digits + kTimestampDigits) {
-    if (!readHex(&line_[start + data_digits], kTimestampDigits, value)) return false;
-  } else if (length_ != start + data_digits) {
-    return false;
-  }
+  if (length_ < start + data_digits) return false;
+  const std::size_t stamp = length_ - start - data_digits;
+  if (stamp != 0 && stamp != kTimestampDigits && stamp != kLongTimestampDigits) return false;
+  if (!readHex(&line_[start + data_digits], stamp, value)) return false;
   for (std::size_t i = 0; i < data_digits / 2; ++i) {
     if (!readHex(&line_[start + 2 * i], 2, value)) return false;
     frame.data[i] = static_cast<std::uint8_t>(value);

@@ -13,11 +13,11 @@ namespace ballbot {
 //
 //   tiiildd..  Tiiiiiiiildd..   data frame, 11 or 29 bit identifier, l bytes, hexadecimal
 //   riiil      Riiiiiiiil       remote frame
-//   CR                          ends a line; alone: done.  z CR, Z CR: frame queued
+//   CR (CR LF)                  ends a line; alone: done.  z CR, Z CR: frame queued
 //   BELL                        the adapter refuses the last command
 
-/// Longest line either side sends: T, 8 digits, length, 16 digits, 4 of a time stamp, CR.
-constexpr std::size_t kSlcanLineMax = 31;
+/// Longest line either side sends: T, 8 digits, length, 16 digits, 8 of a time stamp, CR.
+constexpr std::size_t kSlcanLineMax = 35;
 
 /// Writes `frame` as one line with its CR; returns the number of characters, 0 if it is not valid.
 std::size_t encodeSlcan(const CanFrame& frame, std::array<char, kSlcanLineMax>& out) noexcept;

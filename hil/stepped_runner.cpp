@@ -8,6 +8,9 @@
 namespace ballbot {
 namespace {
 
+// Time-outs of the set-up are stretched by one for each of it: nothing moves meanwhile, and a busy
+// machine is no fault of a drive. All of them together stay below the patience of whoever steps.
+constexpr std::chrono::milliseconds kPatiencePerSlowness{1250};
 // The robot may still swing when a session begins; then the bench waits for rest so long.
 constexpr int kRestPatience = 400;
 // While answers are missing nobody waits for them as long as for the first one.
@@ -79,7 +82,7 @@ void SteppedRunner::throwIfStopped() {
 void SteppedRunner::start() {
   throwIfFault();
   if (running_) return;
-  bringUp(bench_, io_, patience_ / 100, stop_);
+  bringUp(bench_, io_, std::max(1, static_cast<int>(patience_ / kPatiencePerSlowness)), stop_, say_);
   running_ = true;
   sense();
 }

@@ -1,6 +1,7 @@
 #include "tools/bench_report.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -83,7 +84,7 @@ Report benchJson(const Bench& bench, const BenchIo& io) {
   out["bus_load"] = Report::array();
   for (std::size_t i = 0; i < config.buses.size() && cycles > 0; ++i) {
     const BenchIo::Load& load = io.load(static_cast<int>(i));
-    const double capacity = cycles * config.cycleSeconds() * 1000.0 * config.buses[i].bitrate_kbps;
+    const double capacity = cycles * config.cycleSeconds() * 1000.0 * config.buses[i].settings.bitrate_kbps;
     out["bus_load"].push_back({{"nominal", static_cast<double>(load.nominal) / capacity},
                                {"worst_stuffing", static_cast<double>(load.worst) / capacity}});
   }
@@ -133,29 +134,39 @@ bool allGood(const std::vector<NodeReport>& nodes) {
   });
 }
 
-Report checkJson(const std::vector<NodeReport>& nodes) {
+Report checkJson(const std::vector<NodeReport>& nodes, const std::vector<std::string>& sheets) {
+  const auto orNull = [](const auto& value) { return value ? Report(*value) : Report(nullptr); };
   Report list = Report::array();
   for (const NodeReport& r : nodes) {
     list.push_back({{"name", r.name},
                     {"bus", r.bus},
                     {"node", r.node},
                     {"found", r.found},
-                    {"device", r.device},
-                    {"firmware", r.firmware},
-                    {"serial", r.serial},
-                    {"rated_torque_Nm", r.rated_torque_Nm},
-                    {"max_torque_Nm", r.max_torque_Nm},
-                    {"encoder_counts", r.encoder_counts},
-                    {"supply_V", r.supply_V},
-                    {"temperature_degC", r.temperature_degC},
-                    {"state", r.state},
+                    {"data_sheet", r.data_sheet},
+                    {"device", orNull(r.device)},
+                    {"firmware", orNull(r.firmware)},
+                    {"serial", orNull(r.serial)},
+                    {"rated_torque_Nm", orNull(r.rated_torque_Nm)},
+                    {"max_torque_Nm", orNull(r.max_torque_Nm)},
+                    {"encoder_counts", orNull(r.encoder_counts)},
+                    {"supply_V", orNull(r.supply_V)},
+                    {"temperature_degC", orNull(r.temperature_degC)},
+                    {"state", orNull(r.state)},
                     {"last_error", r.last_error},
+                    {"not_given", r.not_given},
                     {"disagreements", r.disagreements}});
   }
-  return {{"nodes", list}, {"good", allGood(nodes)}};
+  return {{"nodes", list},
+          {"data_sheets_disagree", sheets},
+          {"good", allGood(nodes) && sheets.empty()}};
 }
 
-std::string checkTable(const std::vector<NodeReport>& nodes) {
+std::string checkTable(const std::vector<NodeReport>& nodes,
+                       const std::vector<std::string>& sheets) {
+  // What was not given is a dash here and stands in words below.
+  const auto cell = [](const auto& value, const char* format) {
+    return value ? fmt::format(fmt::runtime(format), *value) : std::string("-");
+  };
   std::string out = fmt::format(
       "{:<8} {:>3} {:>4}  {:<24} {:>8} {:>6} {:>8} {:>6} {:>8} {:>6} {:>5}  {}\n", "", "bus",
       "node", "device", "firmware", "serial", "rated Nm", "max Nm", "counts", "degC", "V", "state");
@@ -165,18 +176,29 @@ std::string checkTable(const std::vector<NodeReport>& nodes) {
       out += "does not answer\n";
       continue;
     }
-    out += fmt::format("{:<24} {:>8} {:>6}", r.device, r.firmware, r.serial);
-    if (!r.state.empty()) {
-      out +=
-          fmt::format(" {:>8.4g} {:>6.4g} {:>8} {:>6.4g} {:>5.3g}  {}", r.rated_torque_Nm,
-                      r.max_torque_Nm, r.encoder_counts, r.temperature_degC, r.supply_V, r.state);
+    out += fmt::format("{:<24} {:>8} {:>6}", cell(r.device, "{}"), cell(r.firmware, "{}"),
+                       cell(r.serial, "{}"));
+    if (r.is_drive) {
+      out += fmt::format(" {:>8} {:>6} {:>8} {:>6} {:>5}  {}", cell(r.rated_torque_Nm, "{:.4g}"),
+                         cell(r.max_torque_Nm, "{:.4g}"), cell(r.encoder_counts, "{}"),
+                         cell(r.temperature_degC, "{:.4g}"), cell(r.supply_V, "{:.3g}"),
+                         cell(r.state, "{}"));
     }
     out += '\n';
     if (!r.last_error.empty()) out += fmt::format("         last error: {}\n", r.last_error);
+    for (const std::string& text : r.not_given) {
+      out += fmt::format("         NOT GIVEN: {}\n", text);
+    }
     for (const std::string& text : r.disagreements) {
       out += fmt::format("         DIFFERS: {}\n", text);
     }
   }
+  std::set<std::string> named;
+  for (const NodeReport& r : nodes) {
+    if (r.data_sheet.empty() || !named.insert(r.data_sheet).second) continue;
+    out += fmt::format("data sheet: {}\n", r.data_sheet);
+  }
+  for (const std::string& text : sheets) out += fmt::format("DATA SHEET DIFFERS: {}\n", text);
   return out;
 }
 

@@ -23,8 +23,11 @@ nlohmann::ordered_json realtimeJson(const RealtimeRunner::Statistics& statistics
 std::string benchText(const nlohmann::ordered_json& report);
 
 /// What `hil --check` found, as JSON and as a table.
-nlohmann::ordered_json checkJson(const std::vector<NodeReport>& nodes);
-std::string checkTable(const std::vector<NodeReport>& nodes);
+/// @param sheets  where the bench file and the drives' data sheets disagree
+nlohmann::ordered_json checkJson(const std::vector<NodeReport>& nodes,
+                                 const std::vector<std::string>& sheets);
+std::string checkTable(const std::vector<NodeReport>& nodes,
+                       const std::vector<std::string>& sheets);
 /// Whether every node is there, without error, and agrees with the configuration.
 bool allGood(const std::vector<NodeReport>& nodes);
 

@@ -11,6 +11,7 @@
 
 #include "hil/bench_check.hpp"
 #include "hil/commissioning/commissioning.hpp"
+#include "hil/data_sheet_check.hpp"
 #include "hil/realtime_runner.hpp"
 #include "hil/rehearsal/commissioning_trial.hpp"
 #include "hil/stepped_runner.hpp"
@@ -22,7 +23,6 @@
 namespace ballbot {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{500};  // for an answer to an SDO
 constexpr int kLookAtFlagMs = 100;
 constexpr std::size_t kLeastReason = 10;  // letters of a reason in words
 
@@ -55,7 +55,7 @@ class PersonAtTerminal final : public CommissioningPerson {
 };
 
 std::vector<NodeReport> requireNodes(const BenchConfig& config, const std::vector<CanBus*>& buses) {
-  std::vector<NodeReport> nodes = checkBench(config, buses, kPatience);
+  std::vector<NodeReport> nodes = checkBench(config, buses);
   if (allGood(nodes)) return nodes;
   throw InputError("hil: not every node is there and as configured\n" + checkTable(nodes));
 }
@@ -110,6 +110,7 @@ ExitCode commissionBench(const ConfigNode& tree, const CommissionArguments& a,
     throw InputError("hil: --commission needs --person NAME: who has done it signs the record");
   }
   const BenchConfig config = readBenchConfig(tree);
+  requireDataSheets(config);
   const std::vector<NodeReport> nodes = requireNodes(config, buses);
   CommissioningReport report;
   if (config.stepped) {

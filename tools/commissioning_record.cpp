@@ -32,8 +32,12 @@ void flatten(const ConfigNode& node, const std::string& path, Pairs& out) {
 }
 
 std::string nodeText(const NodeReport& n) {
-  return fmt::format("bus {}, node {}, vendor {:08X}, product {:08X}, serial {:08X}, {} {}", n.bus,
-                     n.node, n.vendor, n.product, n.serial, n.device, n.firmware);
+  const auto number = [](const std::optional<std::int64_t>& value) {
+    return value ? fmt::format("{:08X}", *value) : std::string("not given");
+  };
+  return fmt::format("bus {}, node {}, vendor {}, product {}, serial {}, {} {}", n.bus, n.node,
+                     number(n.vendor), number(n.product), number(n.serial),
+                     n.device.value_or("no name"), n.firmware.value_or(""));
 }
 
 const std::string* find(const Pairs& pairs, const std::string& key) {

@@ -46,7 +46,7 @@ ExitCode emulateDrives(const DrivesArguments& a) {
   const EmulatorConfig config = readEmulatorConfig(tree);
   EmulatedBench bench(config, robotBehind(config, readBenchConfig(tree), a.config));
   const auto buses = openEmulatedBuses(
-      config, [](const std::string& address) { return openCanBus(address, 1000); });
+      config, [](const std::string& address) { return openCanBus(address); });
   for (const auto& bus : buses) fmt::print(stderr, "{}\n", bus->describe());
   fmt::print(stderr, "six drives and an IMU are powered on; {}. Ctrl-C ends.\n",
              config.stepped ? "SYNC is their clock" : "in real time");

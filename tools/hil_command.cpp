@@ -10,6 +10,7 @@
 #include "cosim/serve.hpp"
 #include "experiment/plant_link.hpp"
 #include "hil/bench_check.hpp"
+#include "hil/data_sheet_check.hpp"
 #include "hil/hil_participant.hpp"
 #include "hil/open_can_bus.hpp"
 #include "hil/realtime_runner.hpp"
@@ -96,7 +97,7 @@ void requireFreeAddress(const LcmAddress& address) {
 struct OpenBuses {
   explicit OpenBuses(const BenchConfig& config) {
     for (const BusConfig& bus : config.buses) {
-      owned.push_back(openCanBus(bus.address, bus.bitrate_kbps));
+      owned.push_back(openCanBus(bus.address, bus.settings));
       ends.push_back(owned.back().get());
       fmt::print(stderr, "hil: {}\n", owned.back()->describe());
     }
@@ -107,10 +108,11 @@ struct OpenBuses {
 
 ExitCode showBench(const HilArguments& a) {
   const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
+  const std::vector<std::string> sheets = checkDataSheets(config);
   const OpenBuses buses(config);
-  const auto nodes = checkBench(config, buses.ends, std::chrono::milliseconds(200));
-  fmt::print("{}", a.json ? jsonText(checkJson(nodes)) + "\n" : checkTable(nodes));
-  return allGood(nodes) ? ExitCode::kPassed : ExitCode::kRequirementMissed;
+  const auto nodes = checkBench(config, buses.ends);
+  fmt::print("{}", a.json ? jsonText(checkJson(nodes, sheets)) + "\n" : checkTable(nodes, sheets));
+  return allGood(nodes) && sheets.empty() ? ExitCode::kPassed : ExitCode::kRequirementMissed;
 }
 
 /// How serving ended, an exception included: whatever it was, the bench is brought down and
@@ -127,6 +129,9 @@ Ending serveRunner(BenchRunner& runner, const HilArguments& a, std::uint64_t dig
   options.config_digest = digest;
   options.stop = interruptFlag();
   options.keep_serving = a.keep_serving;
+  BusySignal busy;
+  options.busy = &busy;
+  runner.setSay([&busy](const std::string& doing) { busy.tell(doing); });
   options.say = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
   runner.setStopFlag(options.stop);
   Ending ending;
@@ -135,6 +140,7 @@ Ending serveRunner(BenchRunner& runner, const HilArguments& a, std::uint64_t dig
   } catch (...) {
     ending.lost = std::current_exception();
   }
+  runner.setSay({});
   runner.release();
   return ending;
 }
@@ -169,6 +175,7 @@ ExitCode serveBench(const HilArguments& a) {
   const ConfigNode tree = loadBenchTree(a.config, a.overrides);
   const BenchConfig config = readBenchConfig(tree);
   const std::uint64_t digest = configDigest64(loadBenchScenario(config, a.config));
+  requireDataSheets(config);
   requireFreeAddress({a.lcm_url, a.channel});
   const OpenBuses buses(config);
   fmt::print(stderr,

@@ -10,6 +10,7 @@
 #include "core/angle.hpp"
 #include "experiment/scenario.hpp"
 #include "experiment/text_file.hpp"
+#include "hil/data_sheet_check.hpp"
 #include "hil/identify_drive.hpp"
 #include "hil/identify_report.hpp"
 #include "hil/open_can_bus.hpp"
@@ -98,12 +99,13 @@ IdentifiedScenario meaningOf(const Identification& found, const IdentifyArgument
 ExitCode identifyOnBench(IdentifyArguments a) {
   const BenchConfig config =
       forIdentification(readBenchConfig(loadBenchTree(a.config, a.overrides)));
+  requireDataSheets(config);
   a.plan.drive = a.drive - 1;
   const ScenarioToChange scenario = scenarioToChange(a, config);
   std::vector<std::unique_ptr<CanBus>> owned;
   std::vector<CanBus*> ends;
   for (const BusConfig& bus : config.buses) {
-    owned.push_back(openCanBus(bus.address, bus.bitrate_kbps));
+    owned.push_back(openCanBus(bus.address, bus.settings));
     ends.push_back(owned.back().get());
   }
   std::unique_ptr<BenchRunner> runner;

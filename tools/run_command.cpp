@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -84,6 +85,14 @@ ExitCode runScenario(const RunArguments& arguments) {
       progress.update(toSeconds(now) / duration_s, fmt::format("{:5.2f} of {:g} s", toSeconds(now), duration_s));
     }
   };
+  if (!arguments.quiet) {
+    options.say = [last = std::chrono::steady_clock::time_point{}](const std::string& text) mutable {
+      const auto now = std::chrono::steady_clock::now();
+      if (now - last < std::chrono::seconds(3)) return;
+      last = now;
+      fmt::print(stderr, "{}\n", text);
+    };
+  }
   std::string folder;
   options.started = [&](const RunFolder& made) { folder = made.path(); };
   const RunResult result = [&] {

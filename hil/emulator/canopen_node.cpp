@@ -74,6 +74,7 @@ void CanopenNode::powerOn() { bootUp(true); }
 void CanopenNode::powerOff() {
   state_ = State::kOff;
   outbox_.clear();
+  late_answers_.clear();
   onPowerOff();
 }
 
@@ -82,6 +83,7 @@ void CanopenNode::bootUp(bool application_too) {
   dictionary_.reset(0x1000, 0x1FFF);
   if (application_too) dictionary_.reset(0x2000, 0xFFFF);
   sdo_.reset();
+  late_answers_.clear();
   consumers_ = {};
   receive_ = {};
   syncs_ = {};
@@ -112,7 +114,10 @@ void CanopenNode::enter(State state) {
   receive_ = {};
   syncs_ = {};
   last_sent_ = {};
-  if (state == State::kStopped) sdo_.reset();
+  if (state == State::kStopped) {
+    sdo_.reset();
+    late_answers_.clear();
+  }
   if (was_operational) onConnectionLost();
 }
 
@@ -154,7 +159,11 @@ void CanopenNode::onFrame(const CanFrame& f) {
     answer.id = 0x580U + id;
     answer.size = 8;
     if (!sdo_.answer(f.data.data(), answer.data.data())) return;
-    outbox_.push_back(answer);
+    if (sdo_delay_ns_ == 0) {
+      outbox_.push_back(answer);
+    } else {
+      late_answers_.push_back({now_ns_ + sdo_delay_ns_, answer});
+    }
     onWritten();
     return;
   }
@@ -232,6 +241,10 @@ void CanopenNode::onSync() {
 void CanopenNode::onTime(std::int64_t now_ns) {
   now_ns_ = now_ns;
   if (state_ == State::kOff) return;
+  while (!late_answers_.empty() && late_answers_.front().due_ns <= now_ns) {
+    outbox_.push_back(late_answers_.front().frame);
+    late_answers_.pop_front();
+  }
   const std::int64_t period = dictionary_.value(0x1017) * kMs;
   if (period > 0 && now_ns >= next_heartbeat_ns_) {
     next_heartbeat_ns_ = now_ns + period;

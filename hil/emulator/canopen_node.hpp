@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ class CanopenNode {
   void onSync();
   /// @param now_ns never goes back
   void onTime(std::int64_t now_ns);
+  /// Its SDO server answers so long after the question; 0: at once.
+  void setSdoDelay(std::int64_t delay_ns) { sdo_delay_ns_ = delay_ns; }
+  bool owesAnswer() const { return !late_answers_.empty(); }
   /// Heartbeat and all watches begin anew, as if this were the moment of their set-up.
   void restartTimers();
 
@@ -97,6 +101,12 @@ class CanopenNode {
   SdoServer sdo_;
   State state_ = State::kOff;
   std::vector<CanFrame> outbox_;
+  struct LateAnswer {
+    std::int64_t due_ns;
+    CanFrame frame;
+  };
+  std::deque<LateAnswer> late_answers_;
+  std::int64_t sdo_delay_ns_ = 0;
   std::int64_t now_ns_ = 0, next_heartbeat_ns_ = 0;
   struct Consumer {
     bool heard = false, lost = false;

@@ -12,7 +12,6 @@ namespace {
 using namespace sdo_abort;
 
 constexpr std::uint32_t kServoDrive = 0x00020192;  // 1000: CiA 402, type 2: servo drive
-constexpr std::uint32_t kProduct = 0xBA11;
 constexpr double kNmPerMilli = 1e-3;
 constexpr std::int64_t kModeCsp = 8, kModeCst = 10;
 constexpr std::int64_t kSupportedModes = 1 << 7 | 1 << 9;
@@ -21,33 +20,50 @@ constexpr std::uint16_t kConnectionFault = 0x8130;
 
 bool isSupported(std::int64_t mode) { return mode == 0 || mode == kModeCsp || mode == kModeCst; }
 
+bool isOneOf(const std::vector<int>& values, std::int64_t value) {
+  return std::find(values.begin(), values.end(), value) != values.end();
+}
+
 std::int64_t rounded(double value, double low, double high) {
   return std::llround(std::clamp(value, low, high));
 }
 
 }  // namespace
 
-DriveNode::DriveNode(const EmulatedDriveParameters& p)
-    : CanopenNode(p.node, kServoDrive, "ballbot emulated drive", kProduct), parameters_(p) {
-  addObjects(p);
+double EmulatedDriveParameters::torqueUnit() const {
+  const std::int64_t mNm = torque_reference_mNm == 0 ? rated_torque_mNm : torque_reference_mNm;
+  return static_cast<double>(mNm) * kNmPerMilli / 1000;
+}
+double EmulatedDriveParameters::velocityUnit() const {
+  return velocity_unit == 0 ? kTwoPi / static_cast<double>(encoder_counts) : velocity_unit;
 }
 
-void DriveNode::addOptions() {
+DriveNode::DriveNode(const EmulatedDriveParameters& p)
+    : CanopenNode(p.node, kServoDrive, p.name, static_cast<std::uint32_t>(p.product_code)),
+      parameters_(p) {
+  addObjects(p);
+  setSdoDelay(p.sdo_delay_ns);
+}
+
+void DriveNode::addOptions(const EmulatedDriveParameters& p) {
   ObjectDictionary& d = dictionary();
   using A = OdAccess;
   using T = OdType;
-  const auto option = [&](std::uint16_t index, const char* name, int low, int high, int value) {
-    OdEntry& e = d.variable(index, name, T::kI16, A::kReadWrite, value);
-    e.low = low;
-    e.high = high;
+  const auto option = [&](std::uint16_t index, const char* name, const std::vector<int>& values,
+                          int usual) {
+    const bool has_usual = std::find(values.begin(), values.end(), usual) != values.end();
+    OdEntry& e =
+        d.variable(index, name, T::kI16, A::kReadWrite, has_usual ? usual : values.front());
+    e.low = *std::min_element(values.begin(), values.end());
+    e.high = *std::max_element(values.begin(), values.end());
   };
   d.variable(0x2000, "Drive temperature in 0.1 degC", T::kI16, A::kReadOnly, 315).mappable = true;
   d.structure(0x2010, "Position loop", OdShape::kRecord);
   d.sub(0x2010, 1, "Stiffness in mNm per rad", T::kU32, A::kReadWrite, 0);
   d.sub(0x2010, 2, "Damping in mNm s per rad", T::kU32, A::kReadWrite, 0);
-  option(0x6007, "Abort connection option code", 0, 3, 1);
-  option(0x605A, "Quick stop option code", 0, 6, 2);
-  option(0x605E, "Fault reaction option code", 0, 2, 2);
+  option(0x6007, "Abort connection option code", p.abort_connection_options, 1);
+  option(0x605A, "Quick stop option code", p.quick_stop_options, 2);
+  option(0x605E, "Fault reaction option code", p.fault_reaction_options, 2);
   d.structure(0x60C2, "Interpolation time period", OdShape::kRecord);
   OdEntry& period = d.sub(0x60C2, 1, "Interpolation time period value", T::kU8, A::kReadWrite, 25);
   period.low = 1;
@@ -73,11 +89,14 @@ void DriveNode::addControl(const EmulatedDriveParameters& p) {
   output(0x6060, "Modes of operation", T::kI8, 0);
   input(0x6061, "Modes of operation display", T::kI8);
   input(0x6064, "Position actual value", T::kI32);
-  input(0x606C, "Velocity actual value", T::kI32);
+  input(0x606C, "Velocity actual value", p.velocity_bits == 16 ? T::kI16 : T::kI32);
   output(0x6071, "Target torque", T::kI16, 0);
   output(0x6072, "Max torque", T::kU16, p.max_torque_per_mille);
   input(0x6074, "Torque demand", T::kI16);
   d.variable(0x6076, "Motor rated torque", T::kU32, A::kReadOnly, p.rated_torque_mNm);
+  if (p.torque_reference_mNm != 0) {
+    d.variable(0x2031, "Torque of 1000 counts in mNm", T::kU32, A::kConst, p.torque_reference_mNm);
+  }
   input(0x6077, "Torque actual value", T::kI16);
   d.variable(0x6079, "DC link circuit voltage", T::kU32, A::kReadOnly, 48'000).mappable = true;
   output(0x607A, "Target position", T::kI32, 0);
@@ -93,6 +112,7 @@ void DriveNode::addEncoders(const EmulatedDriveParameters& p) {
   d.structure(0x608F, "Position encoder resolution", OdShape::kArray);
   d.sub(0x608F, 1, "Encoder increments", T::kU32, A::kReadOnly, p.encoder_counts);
   d.sub(0x608F, 2, "Motor revolutions", T::kU32, A::kReadOnly, 1);
+  if (!p.motor_encoder) return;
   d.structure(0x60E4, "Additional position actual value", OdShape::kArray);
   d.sub(0x60E4, 1, "1st additional position actual value", T::kI32, A::kReadOnly, 0).mappable =
       true;
@@ -106,7 +126,7 @@ void DriveNode::addEncoders(const EmulatedDriveParameters& p) {
 }
 
 void DriveNode::addObjects(const EmulatedDriveParameters& p) {
-  addOptions();
+  addOptions(p);
   addControl(p);
   addEncoders(p);
   pdos().addReceive(0, {0x60400010, 0x60710010}, 255);
@@ -114,8 +134,12 @@ void DriveNode::addObjects(const EmulatedDriveParameters& p) {
   pdos().addReceive(2, {0x60B10020}, 255);
   pdos().addReceive(3, {}, 255);
   pdos().addTransmit(0, {0x60410010, 0x60770010, 0x60640020}, 1);
-  pdos().addTransmit(1, {0x606C0020}, 1);
-  pdos().addTransmit(2, {0x60E40120}, 255);
+  pdos().addTransmit(1, {p.velocity_bits == 16 ? 0x606C0010U : 0x606C0020U}, 1);
+  if (p.motor_encoder) {
+    pdos().addTransmit(2, {0x60E40120}, 255);
+  } else {
+    pdos().addTransmit(2, {}, 255);
+  }
   pdos().addTransmit(3, {}, 255);
 }
 
@@ -123,8 +147,12 @@ std::uint32_t DriveNode::judge(std::uint16_t index, std::uint8_t, std::int64_t v
   switch (index) {
     case 0x6060:
       return isSupported(value) ? kNone : kValue;
-    case 0x605A:  // ramps, with and without staying in quick stop
-      return value == 3 || value == 4 ? kValue : kNone;
+    case 0x605A:
+      return isOneOf(parameters_.quick_stop_options, value) ? kNone : kValue;
+    case 0x605E:
+      return isOneOf(parameters_.fault_reaction_options, value) ? kNone : kValue;
+    case 0x6007:
+      return isOneOf(parameters_.abort_connection_options, value) ? kNone : kValue;
     case 0x60C2:  // not while it is interpolating
       return enabled() ? kDeviceState : kNone;
     default:
@@ -262,7 +290,7 @@ void DriveNode::sticking(bool on) {
 // The target within the drive's own limit; a limited target shows in the statusword.
 DriveOutput DriveNode::wanted() {
   const ObjectDictionary& d = dictionary();
-  const double per_mille = static_cast<double>(d.value(0x6076)) * kNmPerMilli / 1000;
+  const double unit = parameters_.torqueUnit();
   const std::int64_t limit = d.value(0x6072);
   const bool position_mode = d.value(0x6061) == kModeCsp;
   const std::int64_t target = d.value(position_mode ? 0x60B2 : 0x6071);
@@ -270,12 +298,12 @@ DriveOutput DriveNode::wanted() {
   limited_ = given != target;
   dictionary().set(0x6074, given);
   DriveOutput out;
-  out.torque = parameters_.sign * parameters_.torque_share * static_cast<double>(given) * per_mille;
+  out.torque = parameters_.sign * parameters_.torque_share * static_cast<double>(given) * unit;
   if (!position_mode) return out;
   const double turn = kTwoPi / static_cast<double>(parameters_.encoder_counts);
   out.position =
       parameters_.sign * static_cast<double>(d.value(0x607A)) * turn + parameters_.offset;
-  out.velocity = parameters_.sign * static_cast<double>(d.value(0x60B1)) * turn;
+  out.velocity = parameters_.sign * static_cast<double>(d.value(0x60B1)) * parameters_.velocityUnit();
   out.stiffness = static_cast<double>(d.value(0x2010, 1)) * kNmPerMilli;
   out.damping = static_cast<double>(d.value(0x2010, 2)) * kNmPerMilli;
   return out;
@@ -284,8 +312,8 @@ DriveOutput DriveNode::wanted() {
 DriveOutput DriveNode::output(std::int64_t now_ns) {
   DriveOutput out;
   if (power_ == Power::kQuickStopActive || power_ == Power::kFaultReactionActive) {
-    const double per_mille = static_cast<double>(parameters_.rated_torque_mNm) * kNmPerMilli / 1000;
-    const double slope = static_cast<double>(dictionary().value(0x6087)) * per_mille;  // N m/s
+    const double slope =
+        static_cast<double>(dictionary().value(0x6087)) * parameters_.torqueUnit();  // N m/s
     const double left =
         std::abs(held_torque_) - slope * 1e-9 * static_cast<double>(now_ns - stop_started_ns_);
     if (left <= 0) finishStop();
@@ -305,13 +333,16 @@ void DriveNode::refresh() {
   const double s = parameters_.sign;
   const double joint = kTwoPi / static_cast<double>(parameters_.encoder_counts);
   const double motor = kTwoPi / static_cast<double>(parameters_.motor_encoder_counts);
-  const double per_mille = static_cast<double>(d.value(0x6076)) * kNmPerMilli / 1000;
   const double angle = stuck_ ? stuck_angle_ : feedback_.joint_angle;
   d.set(0x6064, rounded(s * (angle - parameters_.offset) / joint, -kI32, kI32));
-  d.set(0x606C, rounded(s * feedback_.joint_velocity / joint, -kI32, kI32));
-  d.set(0x60E4, 1, rounded(s * (feedback_.motor_angle - parameters_.offset) / motor, -kI32, kI32));
-  d.set(0x6077,
-        rounded(s * feedback_.joint_torque / parameters_.torque_share / per_mille, -kI16, kI16));
+  const double fastest = parameters_.velocity_bits == 16 ? kI16 : kI32;
+  d.set(0x606C, rounded(s * feedback_.joint_velocity / parameters_.velocityUnit(), -fastest, fastest));
+  if (parameters_.motor_encoder) {
+    d.set(0x60E4, 1,
+          rounded(s * (feedback_.motor_angle - parameters_.offset) / motor, -kI32, kI32));
+  }
+  const double felt = feedback_.joint_torque / parameters_.torque_share;
+  d.set(0x6077, rounded(s * felt / parameters_.torqueUnit(), -kI16, kI16));
   if (enabled() && powered()) wanted();  // 6074 follows the target at once
   d.set(0x6041, forced_status_ != 0 ? forced_status_ : statusword());
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "hil/emulator/canopen_node.hpp"
 
@@ -18,6 +19,23 @@ struct EmulatedDriveParameters {
   double offset = 0;                            ///< joint angle at which 6064 is zero [rad]
   /// Real torque over what it is told and says: what a wrong torque constant does to both.
   double torque_share = 1;
+  std::int64_t sdo_delay_ns = 0;                ///< of its SDO server's answers
+
+  // In what vendors deviate.
+  std::string name = "ballbot emulated drive";  ///< 1008
+  std::int64_t product_code = 0xBA11;           ///< 1018:02
+  /// Torque of 1000 counts of 6071, 6072, 6074, 6077 and 60B2, shown in 2031; 0: it is 6076, and
+  /// there is no 2031.
+  std::int64_t torque_reference_mNm = 0;
+  int velocity_bits = 32;     ///< of 606C: 32 or 16
+  double velocity_unit = 0;   ///< of 606C and 60B1 [rad/s]; 0: counts of 6064 per second
+  bool motor_encoder = true;  ///< whether there are 60E4, 60E6 and 60EB
+  /// Values that 605A, 605E and 6007 take.
+  std::vector<int> quick_stop_options{0, 1, 2, 5, 6}, fault_reaction_options{0, 1, 2},
+      abort_connection_options{0, 1, 2, 3};
+
+  double torqueUnit() const;    ///< of one count [N m]
+  double velocityUnit() const;  ///< of one count [rad/s]
 };
 
 /// What a drive reads of its joint.
@@ -72,7 +90,7 @@ class DriveNode final : public CanopenNode {
   };
 
   void addObjects(const EmulatedDriveParameters& p);
-  void addOptions();
+  void addOptions(const EmulatedDriveParameters& p);
   void addControl(const EmulatedDriveParameters& p);
   void addEncoders(const EmulatedDriveParameters& p);
   std::uint32_t judge(std::uint16_t index, std::uint8_t sub, std::int64_t value) override;

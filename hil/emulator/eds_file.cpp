@@ -44,7 +44,7 @@ void putList(std::string& out, const char* section, const std::vector<std::uint1
 }  // namespace
 
 std::string edsText(const ObjectDictionary& d, int node_id, const std::string& product,
-                    const std::string& file_name) {
+                    const std::string& file_name, const std::string& vendor) {
   std::vector<std::uint16_t> mandatory, optional, manufacturer;
   int receive = 0, transmit = 0;
   for (const auto& [index, object] : d.objects()) {
@@ -58,10 +58,10 @@ std::string edsText(const ObjectDictionary& d, int node_id, const std::string& p
       "[FileInfo]\nFileName={}\nFileVersion=1\nFileRevision=0\nEDSVersion=4.0\n"
       "Description={}\nCreationTime=12:00AM\nCreationDate=01-01-2026\nCreatedBy=ballbot\n"
       "ModificationTime=12:00AM\nModificationDate=01-01-2026\nModifiedBy=ballbot\n"
-      "\n[DeviceInfo]\nVendorName=ballbot\nVendorNumber=0x{:X}\nProductName={}\nProductNumber=0x{:"
+      "\n[DeviceInfo]\nVendorName={}\nVendorNumber=0x{:X}\nProductName={}\nProductNumber=0x{:"
       "X}\n"
       "RevisionNumber=0x{:X}\nOrderCode=0\n",
-      file_name, product, d.value(0x1018, 1), product, d.value(0x1018, 2), d.value(0x1018, 3));
+      file_name, product, vendor, d.value(0x1018, 1), product, d.value(0x1018, 2), d.value(0x1018, 3));
   for (const int rate : {10, 20, 50, 125, 250, 500, 800, 1000}) {
     out += fmt::format("BaudRate_{}={}\n", rate, rate == 1000 ? 1 : 0);
   }

@@ -10,6 +10,6 @@ namespace ballbot {
 /// CANopen tools read it. Equal dictionaries give equal bytes.
 /// @param file_name as its [FileInfo] names it
 std::string edsText(const ObjectDictionary& dictionary, int node_id, const std::string& product,
-                    const std::string& file_name);
+                    const std::string& file_name, const std::string& vendor = "ballbot");
 
 }  // namespace ballbot

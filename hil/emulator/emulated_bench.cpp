@@ -53,6 +53,10 @@ bool EmulatedBench::anyEnergized() const {
   return std::any_of(drives_.begin(), drives_.end(), [](const auto& d) { return d->energized(); });
 }
 
+bool EmulatedBench::owesAnswer() const {
+  return std::any_of(drives_.begin(), drives_.end(), [](const auto& d) { return d->owesAnswer(); });
+}
+
 void EmulatedBench::onFrame(int bus, const CanFrame& frame) {
   const auto b = static_cast<std::size_t>(bus);
   if (frozen_[b]) return;

@@ -53,6 +53,8 @@ class EmulatedBench {
   /// Largest true tilt of the robot so far [rad]; 0 for a rig.
   double largestTilt() const { return largest_tilt_; }
   bool anyEnergized() const;
+  /// Whether a drive's SDO server takes its time over an answer.
+  bool owesAnswer() const;
   /// Carries out a fault now.
   void inject(const FaultOrder& order);
 

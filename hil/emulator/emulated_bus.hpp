@@ -9,7 +9,7 @@ namespace ballbot {
 
 /// A master's end of an emulated bench in the same process: what is sent is acted on at once. For
 /// tests and rehearsals; it may allocate.
-class EmulatedBus final : public CanBus {
+class EmulatedBus : public CanBus {
  public:
   /// `bench` must outlive this.
   EmulatedBus(EmulatedBench& bench, int number) : bench_(bench), number_(number) {}

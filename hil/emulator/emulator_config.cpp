@@ -5,6 +5,7 @@
 #include "core/angle.hpp"
 #include "core/config_reader.hpp"
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 
 namespace ballbot {
 namespace {
@@ -39,6 +40,40 @@ FaultOrder readFault(ConfigReader& in) {
   return order;
 }
 
+void readOptions(ConfigReader& in, const char* key, std::vector<int>& options) {
+  const ConfigNode* list = in.raw(key);
+  if (list == nullptr) return;
+  options.clear();
+  for (const ConfigNode& item : list->items()) {
+    const auto value = parseWhole(item.text());
+    if (!value || *value < -128 || *value > 127) {
+      throw InputError(toText(item.where()) + ": " + key + " has '" + item.text() +
+                       "', must be whole numbers from -128 to 127");
+    }
+    options.push_back(static_cast<int>(*value));
+  }
+  if (options.empty()) throw InputError(in.at(key) + "must have one value at least");
+}
+
+/// What other vendors do otherwise.
+void readDeviations(ConfigReader& in, EmulatedDriveParameters& p) {
+  p.name = in.textOr("name", p.name);
+  // Those of invented devices, so that no real one can be taken for one of these.
+  p.product_code =
+      in.integerOr("product_code", static_cast<int>(p.product_code), {0xBA10, 0xBA1F});
+  p.torque_reference_mNm =
+      in.integerOr("torque_reference_mNm", static_cast<int>(p.torque_reference_mNm), {1, 1e6});
+  p.velocity_bits = in.integerOr("velocity_bits", p.velocity_bits, {16, 32});
+  if (p.velocity_bits != 16 && p.velocity_bits != 32) {
+    throw InputError(in.at("velocity_bits") + "must be 16 or 32");
+  }
+  p.velocity_unit = in.numberOr("velocity_unit_rad_per_s", p.velocity_unit, {1e-9, 10});
+  p.motor_encoder = in.booleanOr("motor_encoder", p.motor_encoder);
+  readOptions(in, "quick_stop_options", p.quick_stop_options);
+  readOptions(in, "fault_reaction_options", p.fault_reaction_options);
+  readOptions(in, "abort_connection_options", p.abort_connection_options);
+}
+
 void readDriveValues(ConfigReader& in, EmulatedDriveParameters& p) {
   p.rated_torque_mNm =
       in.integerOr("rated_torque_mNm", static_cast<int>(p.rated_torque_mNm), {1, 1e6});
@@ -48,6 +83,10 @@ void readDriveValues(ConfigReader& in, EmulatedDriveParameters& p) {
   p.motor_encoder_counts =
       in.integerOr("motor_encoder_counts", static_cast<int>(p.motor_encoder_counts), {16, 1e8});
   p.sign = in.numberOr("sign", p.sign, {-1, 1});
+  constexpr std::int64_t kMs = 1'000'000;
+  p.sdo_delay_ns = kMs * in.integerOr("sdo_delay_ms", static_cast<int>(p.sdo_delay_ns / kMs),
+                                      {0, 10'000});
+  readDeviations(in, p);
   p.offset = kRadPerDeg * in.numberOr("offset_deg", p.offset / kRadPerDeg, {-3600, 3600});
 }
 
@@ -88,6 +127,13 @@ EmulatorConfig readEmulatorConfig(const ConfigNode& tree) {
     c.accel_resolution = imu.numberOr("accel_resolution_m_per_s2", c.accel_resolution, {1e-6, 1});
     c.gyro_resolution = imu.numberOr("gyro_resolution_rad_per_s", c.gyro_resolution, {1e-7, 1});
     imu.finish();
+  }
+  if (in.has("drive_defaults")) {
+    ConfigReader defaults = in.child("drive_defaults");
+    readDriveValues(defaults, c.drives[0]);
+    defaults.finish();
+    c.drives.fill(c.drives[0]);
+    for (int i = 0; i < 6; ++i) c.drives[static_cast<std::size_t>(i)].node = i + 1;
   }
   std::vector<ConfigReader> drives = in.list("drives");
   if (!drives.empty() && drives.size() != 6) {

@@ -25,14 +25,15 @@ std::int64_t wallMs() {
       .count();
 }
 
-void makeLink(const std::string& device, const std::string& link) {
+void requireNoFile(const std::string& link) {
   struct stat info {};
-  if (::lstat(link.c_str(), &info) == 0) {
-    if (!S_ISLNK(info.st_mode)) {
-      throw OutputError(link + ": exists and is no symbolic link; choose another name");
-    }
-    ::unlink(link.c_str());
+  if (::lstat(link.c_str(), &info) == 0 && !S_ISLNK(info.st_mode)) {
+    throw OutputError(link + ": exists and is no symbolic link; choose another name");
   }
+}
+
+void makeLink(const std::string& device, const std::string& link) {
+  ::unlink(link.c_str());  // left by somebody who ended without a word
   if (::symlink(device.c_str(), link.c_str()) != 0) {
     throw OutputError(fmt::format("{}: cannot be made: {}", link, std::strerror(errno)));
   }
@@ -41,6 +42,10 @@ void makeLink(const std::string& device, const std::string& link) {
 }  // namespace
 
 PtyBus::PtyBus(std::string link) {
+  if (!link.empty()) {
+    requireNoFile(link);
+    claim_.emplace(link);
+  }
   master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   std::array<char, 128> name{};
   if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0 ||
@@ -68,7 +73,12 @@ PtyBus::PtyBus(std::string link) {
 }
 
 PtyBus::~PtyBus() {
-  if (!link_.empty()) ::unlink(link_.c_str());
+  // What somebody else has put there meanwhile is theirs.
+  std::array<char, 128> target{};
+  if (!link_.empty() && ::readlink(link_.c_str(), target.data(), target.size() - 1) > 0 &&
+      device_ == target.data()) {
+    ::unlink(link_.c_str());
+  }
   ::close(slave_);
   ::close(master_);
 }

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <deque>
-#include <functional>
+#include <optional>
 #include <string>
 
 #include "hil/can_bus.hpp"
+#include "hil/emulator/link_claim.hpp"
 #include "hil/emulator/slcan_adapter.hpp"
 
 namespace ballbot {
@@ -14,8 +15,9 @@ namespace ballbot {
 class PtyBus final : public CanBus {
  public:
   /// @param link  symbolic link to make, so that the name stays the same from run to run; empty:
-  ///              none. Replaces a link, never a file.
-  /// @throw OutputError if there is no pty or the link cannot be made.
+  ///              none. Replaces a link that nobody serves any more, never a file.
+  /// @throw OutputError if there is no pty or the link cannot be made; InputError if another
+  ///        process serves the link.
   explicit PtyBus(std::string link);
   ~PtyBus() override;
   PtyBus(const PtyBus&) = delete;
@@ -37,6 +39,7 @@ class PtyBus final : public CanBus {
   void read();
   void flush() noexcept;
 
+  std::optional<LinkClaim> claim_;
   std::string device_, link_;
   int master_ = -1, slave_ = -1;
   SlcanAdapter adapter_;

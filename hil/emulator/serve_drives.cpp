@@ -65,7 +65,7 @@ void serveDrives(EmulatedBench& bench, const EmulatorConfig& config,
     const WallClock::time_point now = WallClock::now();
     if (!config.stepped) {
       bench.advanceTo((now - start) / nanoseconds(1));
-    } else if (now - heard > kSilence) {
+    } else if (now - heard > kSilence || bench.owesAnswer()) {
       bench.idle((now - std::max(last, heard)) / nanoseconds(1));
     }
     last = now;

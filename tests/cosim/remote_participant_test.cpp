@@ -103,6 +103,49 @@ TEST(RemoteParticipant, NamesWhoIsSilentAndWhatToTry) {
   }
 }
 
+// Set-up of drives that answer slowly takes longer than a master waits in silence.
+TEST(RemoteParticipant, WaitsForWhoeverSaysThatItIsStillSettingUp) {
+  struct SlowStarter : SpringParticipant {
+    BusySignal busy;
+    milliseconds then_silent{0};
+    void enterInitializationMode(SimTime start) override {
+      for (int i = 0; i < 7; ++i) {
+        std::this_thread::sleep_for(milliseconds{200});
+        busy.tell("still setting up, node 4: 12 of 61");
+      }
+      std::this_thread::sleep_for(then_silent);
+      SpringParticipant::enterInitializationMode(start);
+    }
+  };
+  for (const bool dies : {false, true}) {
+    auto [master_end, far_end] = makeMemoryLink();
+    SlowStarter spring;
+    if (dies) spring.then_silent = milliseconds{1500};
+    ServeOptions serving;
+    serving.config_digest = 1;
+    serving.busy = &spring.busy;
+    std::thread server([&, end = far_end.get()] { serve(spring, *end, serving); });
+    RemoteOptions options = remoteOptions();
+    options.first_patience = milliseconds{900};
+    std::string said;
+    options.say = [&](const std::string& text) { said = text; };
+    {
+      RemoteParticipant remote(*master_end, options);
+      if (dies) {
+        const std::string words =
+            wordsOf<LostParticipantError>([&] { remote.enterInitializationMode(kSimStart); });
+        EXPECT_THAT(words, HasSubstr("The last it said: spring: still setting up, node 4"));
+      } else {
+        remote.enterInitializationMode(kSimStart);
+        EXPECT_EQ(said, "spring: still setting up, node 4: 12 of 61");
+        remote.terminate();
+      }
+      if (dies) std::this_thread::sleep_for(milliseconds{1600});  // then it hears the abort
+    }
+    server.join();
+  }
+}
+
 TEST(RemoteParticipant, SaysWhenAnotherRunIsOnTheChannel) {
   auto [master_end, other] = makeMemoryLink();
   ballbot_msgs::step_reply reply{};

@@ -158,6 +158,21 @@ INSTANTIATE_TEST_SUITE_P(
         WrongSetup{"tpdo: [[60410010, 60770010, 60640020], [606C0020], [60760020]]",
                    "1A02:01 PDO mapping: writing refused, 06040041 (object cannot be mapped"}));
 
+// It may be operational again by the time somebody asks.
+TEST(NodeLink, SaysForWhichStateANodeLeftOperational) {
+  NodeLink link(1, {}, 10, 10);
+  FrameQueue out;
+  link.expectBootUp(10);
+  link.onFrame(heartbeatFrame(1, NmtState::kBootUp), out);
+  link.start();
+  for (const NmtState state :
+       {NmtState::kOperational, NmtState::kPreOperational, NmtState::kOperational}) {
+    link.onFrame(heartbeatFrame(1, state), out);
+  }
+  EXPECT_EQ(link.troubleText(),
+            "node 1 left operational by itself: it said that it is pre-operational");
+}
+
 TEST(Bench, AMissingNodeIsNamed) {
   BenchFixture f("imu: {node: 9}");
   EXPECT_FALSE(f.engage());

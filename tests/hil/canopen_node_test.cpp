@@ -238,5 +238,22 @@ TEST_F(Node, RemoteAndExtendedFramesMeanNothingToIt) {
   EXPECT_TRUE(drive_.operational());
 }
 
+TEST(CanopenNode, AnswersSdosLateWhereItIsToldTo) {
+  EmulatedDriveParameters p;
+  p.sdo_delay_ns = 150'000'000;
+  DriveNode drive(p);
+  drive.powerOn();
+  drive.outbox().clear();
+  drive.onTime(10'000'000);
+  drive.onFrame({0x601, false, false, 8, {0x40, 0x00, 0x10}});
+  EXPECT_TRUE(drive.owesAnswer());
+  drive.onTime(159'000'000);
+  EXPECT_TRUE(drive.outbox().empty());
+  drive.onTime(160'000'000);
+  ASSERT_EQ(drive.outbox().size(), 1U);
+  EXPECT_EQ(drive.outbox()[0].id, 0x581U);
+  EXPECT_FALSE(drive.owesAnswer());
+}
+
 }  // namespace
 }  // namespace ballbot

@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/yaml_file.hpp"
 #include "hil/emulator/drive_node.hpp"
+#include "hil/emulator/emulator_config.hpp"
 #include "hil/emulator/imu_node.hpp"
 #include "tests/hil/support/sdo_dialogue.hpp"
 
@@ -104,6 +106,26 @@ TEST(EdsFile, OfTheImuIsItsObjectDictionary) {
             edsText(made.dictionary(), 7, "ballbot emulated IMU", "ballbot_imu.eds"));
   ImuNode imu(12, 4.79e-3, 1.065e-3);
   expectServed(imu, kFolder + "ballbot_imu.eds");
+}
+
+// The drives of the invented vendors, as the emulator's section of their bench files says them.
+TEST(EdsFile, OfTheVendorsAreTheDrivesThatTheirBenchFilesDescribe) {
+  struct Vendor {
+    const char *folder, *file, *vendor, *product;
+  };
+  for (const Vendor& v : {Vendor{"quistal", "quistal_q20.eds", "Quistal", "Quistal Q20"},
+                          Vendor{"nebelhorn", "nebelhorn_n4.eds", "Nebelhorn", "Nebelhorn N4"}}) {
+    const std::string folder = kFolder + "vendors/" + v.folder + "/";
+    EmulatedDriveParameters p =
+        readEmulatorConfig(loadYamlFile(folder + "bench.yaml")).drives.front();
+    DriveNode made(p);
+    EXPECT_EQ(fileText(folder + v.file),
+              edsText(made.dictionary(), p.node, v.product, v.file, v.vendor));
+    p.node = 9;
+    p.sdo_delay_ns = 0;
+    DriveNode drive(p);
+    expectServed(drive, folder + v.file);
+  }
 }
 
 TEST(EdsFile, CountsItsObjects) {

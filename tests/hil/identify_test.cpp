@@ -116,20 +116,47 @@ TEST(IdentifyDrive, LeavesTheDrivesOffWhenInterrupted) {
 
 TEST(BenchCheck, TellsWhatIsThereAndWhatDisagreesWithoutTouchingIt) {
   Stand stand({}, ", drive_defaults: {rated_torque_Nm: 10}, imu: {node: 9}");
-  const auto reports = checkBench(stand.config, {&stand.bus}, std::chrono::milliseconds(10));
+  const auto reports = checkBench(stand.config, {&stand.bus});
   ASSERT_EQ(reports.size(), 7U);
   EXPECT_TRUE(reports[0].found);
   EXPECT_EQ(reports[0].device, "ballbot emulated drive");
   EXPECT_EQ(reports[0].firmware, "1.0");
-  EXPECT_EQ(reports[3].serial, 4U);
-  EXPECT_DOUBLE_EQ(reports[0].rated_torque_Nm, 20);
-  EXPECT_DOUBLE_EQ(reports[0].max_torque_Nm, 30);
-  EXPECT_DOUBLE_EQ(reports[0].supply_V, 48);
+  EXPECT_EQ(reports[3].serial, 4);
+  EXPECT_DOUBLE_EQ(reports[0].rated_torque_Nm.value(), 20);
+  EXPECT_DOUBLE_EQ(reports[0].max_torque_Nm.value(), 30);
+  EXPECT_DOUBLE_EQ(reports[0].supply_V.value(), 48);
+  EXPECT_TRUE(reports[0].not_given.empty());
   EXPECT_EQ(reports[0].state, "switch on disabled");
   ASSERT_EQ(reports[0].disagreements.size(), 1U);
   EXPECT_EQ(reports[0].disagreements[0], "rated torque [Nm] is 20, configured 10");
   EXPECT_FALSE(reports[6].found) << "no node 9";
   EXPECT_FALSE(stand.drives.drive(0).operational());
+}
+
+TEST(BenchCheck, SaysWhatNobodyAnsweredInsteadOfZero) {
+  Stand stand({});
+  stand.config.sdo_timeout_ms = 20;
+  // A node that dies after its first word.
+  class DyingBus final : public EmulatedBus {
+   public:
+    DyingBus(EmulatedBench& bench) : EmulatedBus(bench, 0), bench_(bench) {}
+    bool send(const CanFrame& frame) noexcept override {
+      if (++asked_ == 8) bench_.drive(0).muteSdo(true);
+      return EmulatedBus::send(frame);
+    }
+
+   private:
+    EmulatedBench& bench_;
+    int asked_ = 0;
+  } bus(stand.drives);
+  const auto reports = checkBench(stand.config, {&bus});
+  EXPECT_TRUE(reports[0].found);
+  EXPECT_FALSE(reports[0].supply_V) << "not 0 V";
+  EXPECT_FALSE(reports[0].max_torque_Nm) << "not 0 Nm";
+  EXPECT_THAT(reports[0].not_given,
+              ::testing::Contains("6079:00 supply voltage: no answer within 20 ms"));
+  EXPECT_THAT(reports[0].disagreements,
+              ::testing::Contains(HasSubstr("max torque was not given, the limit asks for 4 Nm")));
 }
 
 }  // namespace

@@ -95,6 +95,42 @@ TEST_F(Sdo, TheClientRefusesAServerThatDoesNotToggle) {
   EXPECT_EQ(last, (CanFrame{0x601, false, false, 8, {0x80, 8, 0x10, 0, 0, 0, 3, 5}}));
 }
 
+// As some adapters show every frame twice.
+TEST_F(Sdo, TheClientTakesADoubledAnswerOnce) {
+  SdoClient client(1, 10);
+  FrameQueue queue;
+  const auto run = [&] {
+    while (client.status() == SdoClient::Status::kBusy && queue.size() > 0) {
+      const FrameQueue sent = queue;
+      queue.clear();
+      for (const CanFrame& frame : sent) drive_.onFrame(frame);
+      for (const CanFrame& frame : drive_.outbox()) {
+        client.onFrame(frame, queue);
+        client.onFrame(frame, queue);
+      }
+      drive_.outbox().clear();
+    }
+  };
+  client.upload({0x1008, 0}, queue);
+  run();
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(client.data()), client.size()),
+            "ballbot emulated drive");
+  // The second copy of an acknowledgement comes when the value is read back already.
+  const std::uint8_t period[2] = {100, 0};
+  client.download({0x1017, 0}, period, 2, queue);
+  drive_.onFrame(*queue.begin());
+  queue.clear();
+  const CanFrame acknowledgement = drive_.outbox().front();
+  drive_.outbox().clear();
+  client.onFrame(acknowledgement, queue);
+  client.upload({0x1017, 0}, queue);
+  client.onFrame(acknowledgement, queue);
+  EXPECT_EQ(client.status(), SdoClient::Status::kBusy) << "not aborted";
+  run();
+  EXPECT_EQ(client.status(), SdoClient::Status::kDone);
+  EXPECT_EQ(client.data()[0], 100);
+}
+
 TEST_F(Sdo, TheClientIgnoresAnswersToOtherQuestions) {
   SdoClient client(1, 10);
   FrameQueue out;

@@ -56,7 +56,7 @@ class LiveAdapter {
 
 TEST(SlcanBus, CarriesFramesOfAllKindsThereAndBack) {
   LiveAdapter adapter;
-  SlcanBus bus(adapter.bus().path(), 1000);
+  SlcanBus bus(adapter.bus().path(), {1000});
   RandomBytes random(4);
   for (int i = 0; i < 2000; ++i) {
     const CanFrame frame = random.frame();
@@ -76,26 +76,41 @@ TEST(SlcanBus, CarriesFramesOfAllKindsThereAndBack) {
 
 TEST(SlcanBus, RefusesASecondMasterOnTheSameDevice) {
   LiveAdapter adapter;
-  SlcanBus bus(adapter.bus().path(), 1000);
-  EXPECT_THAT(errorOf([&] { SlcanBus second(adapter.bus().path(), 1000); }),
+  SlcanBus bus(adapter.bus().path(), {1000});
+  EXPECT_THAT(errorOf([&] { SlcanBus second(adapter.bus().path(), {1000}); }),
               HasSubstr("is in use by another process. End that one first"));
 }
 
 TEST(SlcanBus, SaysWhatIsWrongWithADevice) {
-  EXPECT_THAT(errorOf([] { SlcanBus bus("/no/such/tty", 1000); }),
+  EXPECT_THAT(errorOf([] { SlcanBus bus("/no/such/tty", {1000}); }),
               HasSubstr("/no/such/tty: cannot be opened: No such file or directory. Is the adapter "
                         "plugged in"));
-  EXPECT_THAT(errorOf([] { SlcanBus bus("/dev/null", 1000); }), HasSubstr("is no serial device"));
-  EXPECT_THAT(errorOf([] { SlcanBus bus("/dev/null", 123); }),
+  EXPECT_THAT(errorOf([] { SlcanBus bus("/dev/null", {1000}); }), HasSubstr("is no serial device"));
+  EXPECT_THAT(errorOf([] { SlcanBus bus("/dev/null", {123}); }),
               HasSubstr("123 kbit/s is no rate of slcan adapters; take 10,"));
   PtyBus mute("");  // nobody answers
-  EXPECT_THAT(errorOf([&] { SlcanBus bus(mute.path(), 1000); }),
+  EXPECT_THAT(errorOf([&] { SlcanBus bus(mute.path(), {1000}); }),
               HasSubstr("no answer to 'C' within 1000 ms"));
+}
+
+TEST(SlcanBus, WorksWithAnAdapterThatAcknowledgesNothing) {
+  PtyBus mute("");
+  CanBusSettings settings;
+  settings.acknowledges = false;
+  SlcanBus bus(mute.path(), settings);
+  EXPECT_THAT(bus.describe(), HasSubstr("an adapter that acknowledges nothing"));
+  CanFrame frame;
+  mute.receive(frame);  // the commands, late
+  EXPECT_TRUE(mute.adapter().isOpen());
+  mute.send({0x181, false, false, 1, {7}});
+  ASSERT_TRUE(bus.waitReadable(milliseconds(500)));
+  while (!bus.receive(frame)) ASSERT_TRUE(bus.waitReadable(milliseconds(500)));
+  EXPECT_EQ(frame.id, 0x181U);
 }
 
 TEST(SlcanBus, KnowsWhenTheDeviceIsGone) {
   auto adapter = std::make_unique<LiveAdapter>();
-  SlcanBus bus(adapter->bus().path(), 1000);
+  SlcanBus bus(adapter->bus().path(), {1000});
   adapter.reset();
   CanFrame frame;
   bus.receive(frame);
@@ -115,10 +130,30 @@ TEST(PtyBus, MakesALinkAndTakesItAway) {
   EXPECT_THAT(errorOf([] { PtyBus bus("/dev/null"); }), HasSubstr("is no symbolic link"));
 }
 
+TEST(PtyBus, RefusesALinkThatAnotherOneServes) {
+  const std::string link = ::testing::TempDir() + "ballbot_pty_taken_" + std::to_string(::getpid());
+  {
+    PtyBus first(link);
+    EXPECT_THAT(errorOf([&] { PtyBus second(link); }),
+                HasSubstr(link + ": another `ballbot drives` (process " +
+                          std::to_string(::getpid()) + ") serves this link. End that one first"));
+    EXPECT_EQ(::access(link.c_str(), R_OK | W_OK), 0) << "the first one's link is still there";
+  }
+  PtyBus third(link);
+  EXPECT_EQ(::access((link + ".lock").c_str(), F_OK), 0);
+}
+
+TEST(PtyBus, ReplacesALinkThatSomebodyLeftBehind) {
+  const std::string link = ::testing::TempDir() + "ballbot_pty_left_" + std::to_string(::getpid());
+  ASSERT_EQ(::symlink("/dev/pts/no-such", link.c_str()), 0);
+  PtyBus bus(link);
+  EXPECT_EQ(::access(link.c_str(), R_OK | W_OK), 0);
+}
+
 TEST(OpenCanBus, NamesTheTwoKinds) {
-  EXPECT_THAT(errorOf([] { openCanBus("can0", 1000); }),
+  EXPECT_THAT(errorOf([] { openCanBus("can0"); }),
               HasSubstr("CAN bus 'can0' must be slcan:DEVICE"));
-  EXPECT_THAT(errorOf([] { openCanBus("slcan:", 1000); }), HasSubstr("or socketcan:INTERFACE"));
+  EXPECT_THAT(errorOf([] { openCanBus("slcan:"); }), HasSubstr("or socketcan:INTERFACE"));
 }
 
 }  // namespace

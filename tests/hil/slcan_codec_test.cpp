@@ -54,6 +54,17 @@ TEST(SlcanCodec, ToleratesTimeStampsAndSmallLetters) {
   EXPECT_TRUE(parser.frame().remote);
 }
 
+TEST(SlcanCodec, ToleratesLineFeedsAndLongTimeStamps) {
+  SlcanParser parser;
+  EXPECT_EQ(parsed("\r\nz\r\nt10021133\r\n", parser),
+            (std::vector<Item>{Item::kDone, Item::kDone, Item::kFrame}));
+  EXPECT_EQ(parsed("t10021133DEADBEEF\r", parser), std::vector<Item>{Item::kFrame});
+  EXPECT_EQ(parser.frame(), (CanFrame{0x100, false, false, 2, {0x11, 0x33}}));
+  EXPECT_EQ(parsed("T1ABCDEF0801020304050607080123ABCD\r", parser),
+            std::vector<Item>{Item::kFrame});
+  EXPECT_EQ(parsed("t10\n0\r", parser), std::vector<Item>{Item::kMalformed}) << "within a line";
+}
+
 TEST(SlcanCodec, RefusesWhateverIsNotExactlyALine) {
   for (const char* line : {"t",         "t1",         "t12",          "t123",  "t1239", "t12312",
                            "t1231ABC",  "t1231ABCDE", "t1231ABCDEF0", "t8000", "tG000", "t1231XY",

@@ -11,7 +11,7 @@ namespace ballbot::testing_support {
 
 /// Six masses on springs with a torque each and one noisy sensor: small, stable, with a state that
 /// matters and noise that must survive save and restore.
-class SpringParticipant final : public Participant {
+class SpringParticipant : public Participant {
  public:
   explicit SpringParticipant(std::uint64_t seed = 1, bool knows_truth = true)
       : noise_(seed, "spring"), knows_truth_(knows_truth) {}
