@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <ctime>
-#include <utility>
 
 #include "core/error.hpp"
 #include "hil/bring_up.hpp"
@@ -21,10 +20,12 @@ constexpr std::int64_t kDownMarginNs = 500'000'000;
 }  // namespace
 
 RealtimeRunner::RealtimeRunner(const BenchConfig& config, std::vector<CanBus*> buses,
-                               LoopClock* clock)
+                               LoopClock* clock, double recorded_s)
     : clock_(clock != nullptr ? *clock : wall_clock_),
       bench_(config),
-      io_(bench_.master(), std::move(buses)),
+      recorder_(config, &clock_, recorded_s),
+      recorded_(buses, recorder_),
+      io_(bench_.master(), recorded_.ends()),
       commands_(kCommands),
       samples_(kSamples),
       records_(kRecords) {
@@ -154,6 +155,7 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
   BenchMaster& master = bench_.master();
   io_.collect(std::chrono::steady_clock::time_point{});  // answers to the SYNC before: too late
   master.beginCycle();
+  recorder_.beginCycle(master.cycle());
   io_.send();
   // steady_clock is CLOCK_MONOTONIC in this library.
   io_.collect(std::chrono::steady_clock::time_point(std::chrono::nanoseconds(deadline_ns) +
@@ -188,6 +190,7 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
   record.wake_late_ns = static_cast<std::int32_t>(woke - deadline_ns);
   record.act_late_ns = static_cast<std::int32_t>(acted - deadline_ns - config.realtime.act.count());
   if (!records_.push(record)) ++statistics_.records_lost;
+  recorder_.endCycle(bench_, record);
   engage_refused_ = bench_.safety().engageRefused();
   down_ = bench_.isDown();
   if (state_.exchange(bench_.safety().state(), std::memory_order_release) !=

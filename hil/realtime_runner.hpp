@@ -14,6 +14,7 @@
 #include "hil/jitter_histogram.hpp"
 #include "hil/loop_clock.hpp"
 #include "hil/realtime_thread.hpp"
+#include "hil/recorder/recorded_bus.hpp"
 #include "hil/spsc_ring.hpp"
 
 namespace ballbot {
@@ -30,7 +31,9 @@ namespace ballbot {
 class RealtimeRunner final : public BenchRunner {
  public:
   /// @param clock  must outlive this; null: the machine's
-  RealtimeRunner(const BenchConfig& config, std::vector<CanBus*> buses, LoopClock* clock = nullptr);
+  /// @param recorded_s  that the flight recorder keeps
+  RealtimeRunner(const BenchConfig& config, std::vector<CanBus*> buses, LoopClock* clock = nullptr,
+                 double recorded_s = FlightRecorder::kDefaultSeconds);
   ~RealtimeRunner() override;
 
   void engage() override;
@@ -40,6 +43,8 @@ class RealtimeRunner final : public BenchRunner {
   void requireGoodEnd() override;
   /// Only what does not change while the loop runs, or after it has ended.
   const Bench& bench() const override { return bench_; }
+  /// After finish().
+  const FlightRecorder& recorder() const override { return recorder_; }
   const BenchIo& io() const { return io_; }
 
   /// Somebody has asked for the way down, and the loop will see it in its next cycle.
@@ -76,6 +81,8 @@ class RealtimeRunner final : public BenchRunner {
   LoopClock wall_clock_;
   LoopClock& clock_;
   Bench bench_;
+  FlightRecorder recorder_;
+  RecordedBuses recorded_;
   BenchIo io_;
   std::thread thread_;
   SpscRing<BenchCommand> commands_;

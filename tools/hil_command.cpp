@@ -17,6 +17,7 @@
 #include "hil/rehearsal/fault_table.hpp"
 #include "hil/stepped_runner.hpp"
 #include "report/json_text.hpp"
+#include "tools/bench_record.hpp"
 #include "tools/bench_report.hpp"
 #include "tools/bench_scenario.hpp"
 #include "tools/commands.hpp"
@@ -29,7 +30,8 @@ struct HilArguments {
   std::string config;
   std::vector<std::string> overrides;
   std::string lcm_url = sharedLcmAddress().url, channel = sharedLcmAddress().channel;
-  std::string record;
+  std::string record, show_record;
+  RecordOptions records;
   bool faults = false, checks = false, check = false, keep_serving = false, json = false;
   int random = 0;
   std::uint64_t seed = 1;
@@ -153,6 +155,26 @@ ExitCode conclude(const Bench& bench, const Ending& ending) {
   return ExitCode::kPassed;
 }
 
+/// The last word, with the record before it. @throw what conclude() does, OutputError
+ExitCode concludeRecorded(const BenchRunner& runner, const Ending& ending, const HilArguments& a,
+                          std::uint64_t digest) {
+  RunEnd end;
+  std::exception_ptr error;
+  try {
+    end.code = conclude(runner.bench(), ending);
+  } catch (const Error& e) {
+    error = std::current_exception();
+    end = {e.exitCode(), e.what()};
+  }
+  RunFacts facts;
+  facts.bench_file = a.config;
+  facts.overrides = a.overrides;
+  facts.config_digest = fmt::format("{:016x}", digest);
+  recordRun(runner, facts, end, a.records);
+  if (error) std::rethrow_exception(error);
+  return end.code;
+}
+
 ExitCode serveBench(const HilArguments& a) {
   const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
   const std::uint64_t digest = configDigest64(loadBenchScenario(config, a.config));
@@ -167,7 +189,7 @@ ExitCode serveBench(const HilArguments& a) {
     SteppedRunner runner(config, buses.ends);
     const Ending ending = serveRunner(runner, a, digest);
     report(benchJson(runner.bench(), runner.io()));
-    return conclude(runner.bench(), ending);
+    return concludeRecorded(runner, ending, a, digest);
   }
   RealtimeRunner runner(config, buses.ends);
   Ending ending;
@@ -179,7 +201,7 @@ ExitCode serveBench(const HilArguments& a) {
   nlohmann::ordered_json j = benchJson(runner.bench(), runner.io());
   j["realtime"] = realtimeJson(runner.statistics());
   report(j);
-  return conclude(runner.bench(), ending);
+  return concludeRecorded(runner, ending, a, digest);
 }
 
 }  // namespace
@@ -198,6 +220,9 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
   command->add_option("--channel", a->channel, "LCM channel")->capture_default_str();
   command->add_flag("--keep-serving", a->keep_serving, "Serve run after run until Ctrl-C");
   command->add_option("--record", a->record, "Write every cycle to this CSV file (real time only)");
+  addRecordOptions(*command, a->records);
+  command->add_option("--show-record", a->show_record,
+                      "Print the record in this folder: what fired first, what was around it");
   command->add_flag("--check", a->check,
                     "Ask every node what it is, change nothing, print a table and what disagrees");
   command->add_flag("--faults", a->faults,
@@ -215,10 +240,13 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
       "  ballbot drives configs/hil/bench.yaml\n"
       "  ballbot hil configs/hil/bench.yaml\n"
       "  ballbot controller configs/scenarios/bench_balance.yaml\n"
+      "When a check fires, its last 20 s are written: every frame, every cycle, a page to look at.\n"
+      "  ballbot hil --show-record runs/bench-drive_fault-1.0575s\n"
       "Software is no emergency stop: docs/hil.md.\n"
       "Exit codes: 0 the run ended, 1 a fault did not end as it must (--faults), 2 bad input,\n"
-      "3 a check of the bench fired or the controller was lost, 5 a drive has not said that its\n"
-      "torque is off: pull the switch that is named, 130 interrupted.");
+      "3 a check of the bench fired or the controller was lost, 4 a record that was asked for could\n"
+      "not be written, 5 a drive has not said that its torque is off: pull the switch that is named,\n"
+      "130 interrupted.");
   command->callback([&result, a] {
     if (a->checks) {
       result = showChecks(a->json);
@@ -227,6 +255,11 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
     if (a->faults) {
       result = showRows(a->random > 0 ? rehearseRandomFaults(a->random, a->seed) : rehearseFaults(),
                         a->json);
+      return;
+    }
+    if (!a->show_record.empty()) {
+      showRecord(a->show_record, a->json);
+      result = ExitCode::kPassed;
       return;
     }
     if (a->config.empty()) throw InputError("hil: give a bench file, e.g. configs/hil/bench.yaml");
