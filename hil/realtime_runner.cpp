@@ -24,7 +24,8 @@ RealtimeRunner::RealtimeRunner(const BenchConfig& config, std::vector<CanBus*> b
     : clock_(clock != nullptr ? *clock : wall_clock_),
       bench_(config),
       recorder_(config, &clock_, recorded_s),
-      recorded_(buses, recorder_),
+      answers_(config),
+      recorded_(buses, recorder_, &answers_),
       io_(bench_.master(), recorded_.ends()),
       commands_(kCommands),
       samples_(kSamples),
@@ -157,9 +158,12 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
   master.beginCycle();
   recorder_.beginCycle(master.cycle());
   io_.send();
+  const std::int64_t synced = clock_.now();
   // steady_clock is CLOCK_MONOTONIC in this library.
   io_.collect(std::chrono::steady_clock::time_point(std::chrono::nanoseconds(deadline_ns) +
                                                     config.realtime.collect));
+  const std::int64_t answered = clock_.now();
+  answers_.endCycle();
   master.endCycle();
   bench_.observe(periodsSinceLast(woke) - 1);
 
@@ -171,7 +175,9 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
     ::sem_post(&news_);
   }
 
+  const std::int64_t judged = clock_.now();
   clock_.sleepUntil(deadline_ns + config.realtime.act.count());
+  const std::int64_t woke_to_act = clock_.now();
   takeCommands();
   wishes_.prepare = true;
   wishes_.engage = want_torque_;
@@ -185,6 +191,12 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
 
   statistics_.wake.add(woke - deadline_ns);
   statistics_.act.add(acted - deadline_ns);
+  LoopTimes& times = statistics_.times;
+  times.act_wake.add(woke_to_act - deadline_ns - config.realtime.act.count());
+  times.sync_out.add(synced - woke);
+  times.judge.add(judged - answered);
+  times.act.add(acted - woke_to_act);
+  times.own.add(synced - woke + judged - answered + acted - woke_to_act);
   ++statistics_.cycles;
   CycleRecord record = bench_.record();
   record.wake_late_ns = static_cast<std::int32_t>(woke - deadline_ns);

@@ -12,6 +12,8 @@
 #include "hil/bench_runner.hpp"
 #include "hil/deadline_schedule.hpp"
 #include "hil/jitter_histogram.hpp"
+#include "hil/latency/answer_probe.hpp"
+#include "hil/latency/loop_times.hpp"
 #include "hil/loop_clock.hpp"
 #include "hil/realtime_thread.hpp"
 #include "hil/recorder/recorded_bus.hpp"
@@ -54,6 +56,7 @@ class RealtimeRunner final : public BenchRunner {
   struct Statistics {
     JitterHistogram wake;  ///< from the deadline to the thread running
     JitterHistogram act;   ///< from the deadline to the command on its way to the bus
+    LoopTimes times;
     /// Times that so many periods were skipped in a row: index 1, 2, ...; the last stands for more.
     std::array<std::int64_t, 17> misses{};
     std::int64_t cycles = 0, overruns = 0, skipped = 0;
@@ -62,6 +65,7 @@ class RealtimeRunner final : public BenchRunner {
     RealtimeGrant grant;
   };
   const Statistics& statistics() const { return statistics_; }
+  const AnswerProbe& answers() const { return answers_; }
   /// Records of all cycles, in order; to be emptied by one thread.
   SpscRing<CycleRecord>& records() { return records_; }
 
@@ -82,6 +86,7 @@ class RealtimeRunner final : public BenchRunner {
   LoopClock& clock_;
   Bench bench_;
   FlightRecorder recorder_;
+  AnswerProbe answers_;
   RecordedBuses recorded_;
   BenchIo io_;
   std::thread thread_;

@@ -1,5 +1,6 @@
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "experiment/plant_link.hpp"
 #include "hil/bench_check.hpp"
 #include "hil/hil_participant.hpp"
+#include "hil/latency/kernel_floor.hpp"
 #include "hil/open_can_bus.hpp"
 #include "hil/realtime_runner.hpp"
 #include "hil/record_writer.hpp"
@@ -32,6 +34,8 @@ struct HilArguments {
   std::string lcm_url = sharedLcmAddress().url, channel = sharedLcmAddress().channel;
   std::string record, show_record;
   RecordOptions records;
+  double floor_s = 1;
+  bool floor_meanwhile = false;
   bool faults = false, checks = false, check = false, keep_serving = false, json = false;
   int random = 0;
   std::uint64_t seed = 1;
@@ -175,10 +179,23 @@ ExitCode concludeRecorded(const BenchRunner& runner, const Ending& ending, const
   return end.code;
 }
 
+/// The kernel's floor as this bench's loop would have it.
+FloorSettings floorOf(const BenchConfig& config) {
+  FloorSettings settings;
+  settings.priority = config.realtime.priority;
+  settings.period_ns = config.cycle.count();
+  return settings;
+}
+
 ExitCode serveBench(const HilArguments& a) {
   const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
   const std::uint64_t digest = configDigest64(loadBenchScenario(config, a.config));
   requireFreeAddress({a.lcm_url, a.channel});
+  std::optional<KernelFloor::Result> before;
+  if (!config.stepped && a.floor_s > 0) {
+    fmt::print(stderr, "hil: measures the kernel's floor for {:.3g} s\n", a.floor_s);
+    before = measureFloor(floorOf(config), a.floor_s, interruptFlag());
+  }
   const OpenBuses buses(config);
   fmt::print(stderr,
              "hil: this program is no emergency stop. Keep the hardware one (STO) within reach.\n");
@@ -193,13 +210,16 @@ ExitCode serveBench(const HilArguments& a) {
   }
   RealtimeRunner runner(config, buses.ends);
   Ending ending;
+  std::unique_ptr<KernelFloor> beside;
+  if (a.floor_meanwhile) beside = std::make_unique<KernelFloor>(floorOf(config));
   {
     RecordWriter writer(runner.records(), a.record);
     ending = serveRunner(runner, a, digest);
     runner.finish();
   }
   nlohmann::ordered_json j = benchJson(runner.bench(), runner.io());
-  j["realtime"] = realtimeJson(runner.statistics());
+  j["realtime"] = realtimeJson(runner, before ? &*before : nullptr,
+                               beside ? &beside->finish() : nullptr);
   report(j);
   return concludeRecorded(runner, ending, a, digest);
 }
@@ -220,6 +240,13 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
   command->add_option("--channel", a->channel, "LCM channel")->capture_default_str();
   command->add_flag("--keep-serving", a->keep_serving, "Serve run after run until Ctrl-C");
   command->add_option("--record", a->record, "Write every cycle to this CSV file (real time only)");
+  command
+      ->add_option("--floor-seconds", a->floor_s,
+                   "Real time: measure the kernel's own latency so long before the bench; 0: not")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  command->add_flag("--floor-meanwhile", a->floor_meanwhile,
+                    "Measure it beside the bench, too, in a thread of the same settings");
   addRecordOptions(*command, a->records);
   command->add_option("--show-record", a->show_record,
                       "Print the record in this folder: what fired first, what was around it");

@@ -159,7 +159,7 @@ ExitCode identifyOnBench(IdentifyArguments a) {
     if (auto* realtime = dynamic_cast<RealtimeRunner*>(runner.get())) {
       realtime->finish();
       j["bench"] = benchJson(realtime->bench(), realtime->io());
-      j["realtime"] = realtimeJson(realtime->statistics());
+      j["realtime"] = realtimeJson(*realtime);
     }
     fmt::print("{}\n", jsonText(j));
   } else {

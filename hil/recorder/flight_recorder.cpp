@@ -38,8 +38,11 @@ void FlightRecorder::beginCycle(std::int64_t cycle) noexcept {
   began_ns_ = timeNs();
 }
 
-void FlightRecorder::onFrame(int bus, const CanFrame& frame, bool sent, bool refused) noexcept {
-  frames_.push({timeNs(), cycle_, frame, static_cast<std::uint8_t>(bus), sent, refused});
+std::int64_t FlightRecorder::onFrame(int bus, const CanFrame& frame, bool sent,
+                                     bool refused) noexcept {
+  const std::int64_t now = timeNs();
+  frames_.push({now, cycle_, frame, static_cast<std::uint8_t>(bus), sent, refused});
+  return now;
 }
 
 void FlightRecorder::note(const Finding& finding, const CycleRecord& record) noexcept {

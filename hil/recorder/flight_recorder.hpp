@@ -42,7 +42,8 @@ class FlightRecorder {
 
   /// Before the first frame of a cycle. @param cycle  of the master, from 1
   void beginCycle(std::int64_t cycle) noexcept;
-  void onFrame(int bus, const CanFrame& frame, bool sent, bool refused) noexcept;
+  /// @return its time
+  std::int64_t onFrame(int bus, const CanFrame& frame, bool sent, bool refused) noexcept;
   /// After the decision of a cycle and its last frame.
   void endCycle(const Bench& bench, CycleRecord record) noexcept;
 

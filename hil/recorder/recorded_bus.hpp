@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hil/can_bus.hpp"
+#include "hil/latency/answer_probe.hpp"
 #include "hil/recorder/flight_recorder.hpp"
 
 namespace ballbot {
@@ -12,18 +13,20 @@ namespace ballbot {
 /// A bus that copies every frame that passes into a recorder, and is the bus within otherwise.
 class RecordedBus final : public CanBus {
  public:
-  /// Both must outlive this.
-  RecordedBus(CanBus& inner, int number, FlightRecorder& recorder)
-      : inner_(inner), number_(number), recorder_(recorder) {}
+  /// All must outlive this. @param probe  is told of every frame, too; may be null
+  RecordedBus(CanBus& inner, int number, FlightRecorder& recorder, AnswerProbe* probe = nullptr)
+      : inner_(inner), number_(number), recorder_(recorder), probe_(probe) {}
 
   bool send(const CanFrame& frame) noexcept override {
     const bool sent = inner_.send(frame);
-    recorder_.onFrame(number_, frame, true, !sent);
+    const std::int64_t now = recorder_.onFrame(number_, frame, true, !sent);
+    if (probe_ != nullptr && sent) probe_->onFrame(now, number_, frame, true);
     return sent;
   }
   bool receive(CanFrame& out) noexcept override {
     if (!inner_.receive(out)) return false;
-    recorder_.onFrame(number_, out, false, false);
+    const std::int64_t now = recorder_.onFrame(number_, out, false, false);
+    if (probe_ != nullptr) probe_->onFrame(now, number_, out, false);
     return true;
   }
   bool waitReadable(std::chrono::nanoseconds timeout) noexcept override {
@@ -38,16 +41,18 @@ class RecordedBus final : public CanBus {
   CanBus& inner_;
   int number_;
   FlightRecorder& recorder_;
+  AnswerProbe* probe_;
 };
 
 /// All buses of a bench, recorded.
 class RecordedBuses {
  public:
-  /// The buses and the recorder must outlive this.
-  RecordedBuses(const std::vector<CanBus*>& inner, FlightRecorder& recorder) {
+  /// The buses, the recorder and the probe must outlive this.
+  RecordedBuses(const std::vector<CanBus*>& inner, FlightRecorder& recorder,
+                AnswerProbe* probe = nullptr) {
     for (CanBus* bus : inner) {
       const int number = static_cast<int>(owned_.size());
-      owned_.push_back(std::make_unique<RecordedBus>(*bus, number, recorder));
+      owned_.push_back(std::make_unique<RecordedBus>(*bus, number, recorder, probe));
     }
   }
   std::vector<CanBus*> ends() const {
