@@ -17,6 +17,10 @@ bool allFinite(const DriveArray& values) noexcept {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
+std::uint8_t upTo255(int count) noexcept {
+  return static_cast<std::uint8_t>(std::clamp(count, 0, 255));
+}
+
 std::vector<std::vector<SetupStep>> setupsOf(const BenchConfig& config) {
   std::vector<std::vector<SetupStep>> setups;
   for (const DriveConfig& drive : config.drives) setups.push_back(driveSetup(config, drive));
@@ -39,6 +43,7 @@ Bench::Bench(const BenchConfig& config)
 // Of several faults in one cycle the gravest counts.
 void Bench::notice(const Finding& found) noexcept {
   if (!found) return;
+  findings_.push(found);
   if (!seen_ || (dampsFirst(seen_.fault) && !dampsFirst(found.fault))) seen_ = found;
 }
 
@@ -48,6 +53,8 @@ void Bench::notice(BenchFault fault, int drive, double value, double limit) noex
 
 void Bench::observe(int skipped_cycles) noexcept {
   seen_ = {};
+  findings_.clear();
+  skipped_ = skipped_cycles;
   checkNetwork();
   checkDrives();
   checkMeasurements(1 + skipped_cycles);
@@ -233,6 +240,7 @@ void Bench::actuate(const Wishes& w) noexcept {
     latched_ = seen_.fault == safety_.fault() ? seen_ : Finding{safety_.fault()};
   }
   out_ = {};
+  asked_ = {};
   out_.position = master_.sample().joint_angle;
   if (action == SafetyAction::kFollow && w.command != nullptr) {
     follow(*w.command);
@@ -314,6 +322,7 @@ void Bench::follow(const BenchCommand& c) noexcept {
       wanted += c.stiffness[i] * (c.position[i] - s.joint_angle[i]) +
                 c.damping[i] * (c.velocity[i] - s.joint_velocity[i]);
     }
+    asked_[i] = wanted;
     wanted *= share;
     const double step = limits.torque_rate * config_.cycleSeconds();
     const double given = std::clamp(std::clamp(wanted, torque_[i] - step, torque_[i] + step),
@@ -350,10 +359,16 @@ CycleRecord Bench::record() const noexcept {
   r.action = safety_.action();
   r.fault = safety_.fault();
   r.sample = master_.sample();
+  r.asked = asked_;
   r.torque = torque_;
   for (int i = 0; i < kDriveCount; ++i) {
-    r.statusword[static_cast<std::size_t>(i)] = master_.drive(i).statusword;
+    const BenchMaster::Drive& d = master_.drive(i);
+    r.statusword[static_cast<std::size_t>(i)] = d.statusword;
+    r.stale[static_cast<std::size_t>(i)] = upTo255(d.stale_cycles);
   }
+  r.imu_stale = upTo255(master_.imuStaleCycles());
+  r.skipped = upTo255(skipped_);
+  r.tilt = static_cast<float>(tilt_.tilt());
   return r;
 }
 

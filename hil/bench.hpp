@@ -22,12 +22,18 @@ namespace ballbot {
 /// One cycle of the bench as numbers, for the record.
 struct CycleRecord {
   std::int64_t cycle = 0;
+  std::int64_t time_ns = 0;  ///< bus time of its SYNC; see FlightRecorder::timeNs()
   SafetyState state = SafetyState::kDisabled;
   SafetyAction action = SafetyAction::kNoVoltage;
   BenchFault fault = BenchFault::kNone;
   BenchSample sample;
+  DriveArray asked{};   ///< by the controller, before rate, limit and ramp [N m]
   DriveArray torque{};  ///< sent [N m]
   std::array<std::uint16_t, kDriveCount> statusword{};
+  std::array<std::uint8_t, kDriveCount> stale{};   ///< cycles since a drive's PDOs were complete
+  std::uint8_t imu_stale = 0;                      ///< cycles since the last new sample
+  std::uint8_t skipped = 0;                        ///< periods left out before this cycle
+  float tilt = 0;                                  ///< [rad]
   std::int32_t wake_late_ns = 0, act_late_ns = 0;  ///< of the real-time loop
 };
 
@@ -85,6 +91,11 @@ class Bench {
   const ParameterWatch& parameters() const noexcept { return parameters_; }
   int commandAge() const noexcept { return command_doubt_.age(); }
 
+  /// What the checks found in this cycle, and the one that is latched.
+  const FindingList& findings() const noexcept { return findings_; }
+  const Finding& latched() const noexcept { return latched_; }
+  /// What a check found, in words.
+  std::string textOf(const Finding& found) const;
   /// The latched fault in words, with drive, value and limit.
   std::string faultText() const;
   /// What a person must know and do where drives have not said that they are off: one sentence for
@@ -122,9 +133,11 @@ class Bench {
   int since_question_ = 0;
   TiltMonitor tilt_;
   BenchCommand out_;
-  DriveArray torque_{};
+  DriveArray torque_{}, asked_{};
   std::int64_t saturated_ = 0;
   Finding seen_, latched_;  ///< the gravest of this cycle, and the one that was latched
+  FindingList findings_;
+  int skipped_ = 0;  ///< periods before this cycle
   std::array<bool, kDriveCount> was_enabled_{};
   std::array<int, kDriveCount> unbidden_{};      ///< cycles with torque that nobody asked for
   std::array<bool, kDriveCount> reset_tried_{};  ///< of faults from before

@@ -19,6 +19,20 @@ int tpdoOf(const CanFrame& f, int node) noexcept {
 
 }  // namespace
 
+bool isMasters(const BenchConfig& config, int bus, const CanFrame& f) noexcept {
+  if (f.extended || f.remote) return false;
+  if (f.id == kCobNmt || f.id == kCobSync) return true;
+  const auto node = static_cast<int>(f.id & 0x7FU);
+  const std::uint32_t function = f.id & 0x780U;
+  if (function == kCobHeartbeat) return node == config.master_node;
+  const bool commands = function == kCobSdoToServer ||
+                        std::find(kCobRpdo.begin(), kCobRpdo.end(), function) != kCobRpdo.end();
+  if (!commands) return false;
+  if (node == config.imu.node && bus == config.imu.bus) return true;
+  return std::any_of(config.drives.begin(), config.drives.end(),
+                     [&](const DriveConfig& d) { return d.node == node && d.bus == bus; });
+}
+
 BenchMaster::BenchMaster(const BenchConfig& config)
     : config_(config), outbox_(config.buses.size()) {
   const int sdo = config.cyclesOf(config.sdo_timeout_ms);
@@ -86,23 +100,9 @@ void BenchMaster::beginCycle() noexcept {
   pushAll(syncFrame());
 }
 
-// A bus does not give a node's own frames back to it: these came from somebody else.
-bool BenchMaster::isMasters(int bus, const CanFrame& f) const noexcept {
-  if (f.extended || f.remote) return false;
-  if (f.id == kCobNmt || f.id == kCobSync) return true;
-  const auto node = static_cast<int>(f.id & 0x7FU);
-  const std::uint32_t function = f.id & 0x780U;
-  if (function == kCobHeartbeat) return node == config_.master_node;
-  const bool commands = function == kCobSdoToServer ||
-                        std::find(kCobRpdo.begin(), kCobRpdo.end(), function) != kCobRpdo.end();
-  if (!commands) return false;
-  if (node == config_.imu.node && bus == config_.imu.bus) return true;
-  return std::any_of(config_.drives.begin(), config_.drives.end(),
-                     [&](const DriveConfig& d) { return d.node == node && d.bus == bus; });
-}
-
 void BenchMaster::onFrame(int bus, const CanFrame& frame) noexcept {
-  if (running_ && isMasters(bus, frame)) {
+  // A bus does not give a node's own frames back to it.
+  if (running_ && isMasters(config_, bus, frame)) {
     foreign_ = frame;
     return;
   }

@@ -15,6 +15,9 @@
 
 namespace ballbot {
 
+/// Whether only the master of a bench may send this frame: one that came is somebody else's.
+bool isMasters(const BenchConfig& config, int bus, const CanFrame& frame) noexcept;
+
 /// The CANopen master of the bench: six drives and the IMU on one or two buses. A pure state
 /// machine that is driven cycle by cycle; after construction it neither allocates, locks nor
 /// throws.
@@ -92,7 +95,6 @@ class BenchMaster {
     PdoField field;
     std::uint8_t pdo = 0;
   };
-  bool isMasters(int bus, const CanFrame& frame) const noexcept;
   void readPdo(int drive, int pdo, const CanFrame& frame) noexcept;
   void readImu(int pdo, const CanFrame& frame) noexcept;
   Input findInput(ObjectAddress object) const noexcept;

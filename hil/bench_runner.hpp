@@ -8,6 +8,7 @@
 
 #include "hil/bench.hpp"
 #include "hil/bench_signals.hpp"
+#include "hil/recorder/flight_recorder.hpp"
 
 namespace ballbot {
 
@@ -39,6 +40,8 @@ class BenchRunner {
   /// @throw TorqueNotOffError, LostParticipantError.
   virtual void requireGoodEnd() = 0;
   virtual const Bench& bench() const = 0;
+  /// The last seconds of the bench; to be read once its cycles have ended.
+  virtual const FlightRecorder& recorder() const = 0;
 
   /// Looked at in every wait, whatever state the bench is in; must outlive this.
   void setStopFlag(const std::atomic<bool>* stop) noexcept { stop_ = stop; }

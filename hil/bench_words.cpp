@@ -6,40 +6,42 @@
 namespace ballbot {
 
 std::string Bench::faultText() const {
-  const BenchFault fault = safety_.fault();
-  if (fault == BenchFault::kNone) return "";
+  return safety_.fault() == BenchFault::kNone ? "" : textOf(latched_);
+}
+
+std::string Bench::textOf(const Finding& found) const {
+  const BenchFault fault = found.fault;
   std::string text = toText(fault);
-  if (latched_.drive >= 0 && latched_.drive < kDriveCount) {
-    text += ": " + config_.drives[static_cast<std::size_t>(latched_.drive)].name;
+  if (found.drive >= 0 && found.drive < kDriveCount) {
+    text += ": " + config_.drives[static_cast<std::size_t>(found.drive)].name;
   }
   switch (fault) {
     case BenchFault::kNodeTrouble:
-      return text + (latched_.drive == BenchMaster::kImuLink ? ": IMU" : "") + ": " +
-             master_.link(latched_.drive).troubleText();
+      return text + (found.drive == BenchMaster::kImuLink ? ": IMU" : "") + ": " +
+             master_.link(found.drive).troubleText();
     case BenchFault::kDriveFault:
     case BenchFault::kDriveDroppedOut:
     case BenchFault::kDriveUnbidden: {
-      const auto word = static_cast<std::uint16_t>(latched_.value);
+      const auto word = static_cast<std::uint16_t>(found.value);
       return fmt::format("{} ({}, statusword {:04X})", text, toText(driveState(word)), word);
     }
     case BenchFault::kDriveTransition:
-      if (latched_.drive < 0) return text;
-      return fmt::format("{} (statusword {:04X})", text,
-                         static_cast<std::uint16_t>(latched_.value));
+      if (found.drive < 0) return text;
+      return fmt::format("{} (statusword {:04X})", text, static_cast<std::uint16_t>(found.value));
     case BenchFault::kCommandNotFinite:
     case BenchFault::kSensorNotFinite:
     case BenchFault::kNodeTwin:
     case BenchFault::kBusDown:
       return text;
     case BenchFault::kForeignFrame:
-      return fmt::format("{} (identifier {:03X})", text, static_cast<unsigned>(latched_.value));
+      return fmt::format("{} (identifier {:03X})", text, static_cast<unsigned>(found.value));
     case BenchFault::kParameterChanged:
       return text + ": " + parameters_.text();
     default:
-      if (latched_.drive == BenchMaster::kImuLink) {
-        return text + ": " + master_.link(latched_.drive).troubleText();
+      if (found.drive == BenchMaster::kImuLink) {
+        return text + ": " + master_.link(found.drive).troubleText();
       }
-      return fmt::format("{} ({:.4g}, limit {:.4g})", text, latched_.value, latched_.limit);
+      return fmt::format("{} ({:.4g}, limit {:.4g})", text, found.value, found.limit);
   }
 }
 

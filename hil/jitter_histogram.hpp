@@ -17,6 +17,12 @@ class JitterHistogram {
     ++count_;
     max_ns_ = std::max(max_ns_, ns);
   }
+  /// Counts what another one has counted, too.
+  void add(const JitterHistogram& other) noexcept {
+    for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i] += other.bins_[i];
+    count_ += other.count_;
+    max_ns_ = std::max(max_ns_, other.max_ns_);
+  }
   std::int64_t count() const noexcept { return count_; }
   std::int64_t max() const noexcept { return max_ns_; }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <ctime>
-#include <utility>
 
 #include "core/error.hpp"
 #include "hil/bring_up.hpp"
@@ -21,10 +20,13 @@ constexpr std::int64_t kDownMarginNs = 500'000'000;
 }  // namespace
 
 RealtimeRunner::RealtimeRunner(const BenchConfig& config, std::vector<CanBus*> buses,
-                               LoopClock* clock)
+                               LoopClock* clock, double recorded_s)
     : clock_(clock != nullptr ? *clock : wall_clock_),
       bench_(config),
-      io_(bench_.master(), std::move(buses)),
+      recorder_(config, &clock_, recorded_s),
+      answers_(config),
+      recorded_(buses, recorder_, &answers_),
+      io_(bench_.master(), recorded_.ends()),
       commands_(kCommands),
       samples_(kSamples),
       records_(kRecords) {
@@ -170,10 +172,14 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
   BenchMaster& master = bench_.master();
   io_.collect(std::chrono::steady_clock::time_point{});  // answers to the SYNC before: too late
   master.beginCycle();
+  recorder_.beginCycle(master.cycle());
   io_.send();
+  const std::int64_t synced = clock_.now();
   // steady_clock is CLOCK_MONOTONIC in this library.
   io_.collect(std::chrono::steady_clock::time_point(std::chrono::nanoseconds(deadline_ns) +
                                                     config.realtime.collect));
+  const std::int64_t answered = clock_.now();
+  answers_.endCycle();
   master.endCycle();
   bench_.observe(periodsSinceLast(woke) - 1);
 
@@ -188,7 +194,9 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
     ::sem_post(&news_);
   }
 
+  const std::int64_t judged = clock_.now();
   clock_.sleepUntil(deadline_ns + config.realtime.act.count());
+  const std::int64_t woke_to_act = clock_.now();
   takeCommands();
   wishes_.prepare = !watching_;
   wishes_.engage = want_torque_;
@@ -202,11 +210,18 @@ void RealtimeRunner::cycle(std::int64_t deadline_ns) noexcept {
 
   statistics_.wake.add(woke - deadline_ns);
   statistics_.act.add(acted - deadline_ns);
+  LoopTimes& times = statistics_.times;
+  times.act_wake.add(woke_to_act - deadline_ns - config.realtime.act.count());
+  times.sync_out.add(synced - woke);
+  times.judge.add(judged - answered);
+  times.act.add(acted - woke_to_act);
+  times.own.add(synced - woke + judged - answered + acted - woke_to_act);
   ++statistics_.cycles;
   CycleRecord record = bench_.record();
   record.wake_late_ns = static_cast<std::int32_t>(woke - deadline_ns);
   record.act_late_ns = static_cast<std::int32_t>(acted - deadline_ns - config.realtime.act.count());
   if (!records_.push(record)) ++statistics_.records_lost;
+  recorder_.endCycle(bench_, record);
   engage_refused_ = bench_.safety().engageRefused();
   down_ = bench_.isDown();
   if (state_.exchange(bench_.safety().state(), std::memory_order_release) !=

@@ -12,8 +12,11 @@
 #include "hil/bench_runner.hpp"
 #include "hil/deadline_schedule.hpp"
 #include "hil/jitter_histogram.hpp"
+#include "hil/latency/answer_probe.hpp"
+#include "hil/latency/loop_times.hpp"
 #include "hil/loop_clock.hpp"
 #include "hil/realtime_thread.hpp"
+#include "hil/recorder/recorded_bus.hpp"
 #include "hil/spsc_ring.hpp"
 
 namespace ballbot {
@@ -30,7 +33,9 @@ namespace ballbot {
 class RealtimeRunner final : public BenchRunner {
  public:
   /// @param clock  must outlive this; null: the machine's
-  RealtimeRunner(const BenchConfig& config, std::vector<CanBus*> buses, LoopClock* clock = nullptr);
+  /// @param recorded_s  that the flight recorder keeps
+  RealtimeRunner(const BenchConfig& config, std::vector<CanBus*> buses, LoopClock* clock = nullptr,
+                 double recorded_s = FlightRecorder::kDefaultSeconds);
   ~RealtimeRunner() override;
 
   const BenchSample& watch() override;
@@ -41,6 +46,8 @@ class RealtimeRunner final : public BenchRunner {
   void requireGoodEnd() override;
   /// Only what does not change while the loop runs, or after it has ended.
   const Bench& bench() const override { return bench_; }
+  /// After finish().
+  const FlightRecorder& recorder() const override { return recorder_; }
   const BenchIo& io() const { return io_; }
 
   /// Somebody has asked for the way down, and the loop will see it in its next cycle.
@@ -50,6 +57,7 @@ class RealtimeRunner final : public BenchRunner {
   struct Statistics {
     JitterHistogram wake;  ///< from the deadline to the thread running
     JitterHistogram act;   ///< from the deadline to the command on its way to the bus
+    LoopTimes times;
     /// Times that so many periods were skipped in a row: index 1, 2, ...; the last stands for more.
     std::array<std::int64_t, 17> misses{};
     std::int64_t cycles = 0, overruns = 0, skipped = 0;
@@ -58,6 +66,7 @@ class RealtimeRunner final : public BenchRunner {
     RealtimeGrant grant;
   };
   const Statistics& statistics() const { return statistics_; }
+  const AnswerProbe& answers() const { return answers_; }
   /// Records of all cycles, in order; to be emptied by one thread.
   SpscRing<CycleRecord>& records() { return records_; }
 
@@ -78,6 +87,9 @@ class RealtimeRunner final : public BenchRunner {
   LoopClock wall_clock_;
   LoopClock& clock_;
   Bench bench_;
+  FlightRecorder recorder_;
+  AnswerProbe answers_;
+  RecordedBuses recorded_;
   BenchIo io_;
   std::thread thread_;
   SpscRing<BenchCommand> commands_;

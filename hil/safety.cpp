@@ -16,6 +16,22 @@ const char* toText(SafetyState state) noexcept {
   return "unknown";
 }
 
+const char* toText(SafetyAction action) noexcept {
+  switch (action) {
+    case SafetyAction::kNoVoltage:
+      return "no_voltage";
+    case SafetyAction::kSwitchedOn:
+      return "switched_on";
+    case SafetyAction::kZeroTorque:
+      return "zero_torque";
+    case SafetyAction::kFollow:
+      return "follow";
+    case SafetyAction::kDamp:
+      return "damp";
+  }
+  return "";
+}
+
 SafetyAction Safety::step(const Events& events) noexcept {
   action_ = decide(events);
   return action_;

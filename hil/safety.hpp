@@ -23,6 +23,8 @@ enum class SafetyAction : std::uint8_t {
   kDamp,        ///< bounded damping, no command
 };
 
+const char* toText(SafetyAction action) noexcept;
+
 /// Decides once per cycle what the drives do. Pure: no clock, no bus.
 class Safety {
  public:

@@ -1,7 +1,6 @@
 #include "hil/stepped_runner.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/error.hpp"
 
@@ -21,8 +20,12 @@ constexpr std::chrono::milliseconds kDownBudget{2000}, kLastPatience{5};
 }  // namespace
 
 SteppedRunner::SteppedRunner(const BenchConfig& config, std::vector<CanBus*> buses,
-                             std::chrono::milliseconds patience)
-    : bench_(config), io_(bench_.master(), std::move(buses)), patience_(patience) {}
+                             std::chrono::milliseconds patience, double recorded_s)
+    : bench_(config),
+      recorder_(config, nullptr, recorded_s),
+      recorded_(buses, recorder_),
+      io_(bench_.master(), recorded_.ends()),
+      patience_(patience) {}
 
 SteppedRunner::~SteppedRunner() { release(); }
 
@@ -37,6 +40,7 @@ std::chrono::milliseconds SteppedRunner::patience() const noexcept {
 
 void SteppedRunner::sense() noexcept {
   bench_.master().beginCycle();
+  recorder_.beginCycle(bench_.master().cycle());
   io_.send();
   answers_missing_ = !io_.collect(std::chrono::steady_clock::now() + patience());
   bench_.master().endCycle();
@@ -48,6 +52,7 @@ void SteppedRunner::actuate() noexcept {
   wishes_.bus_down = !io_.allUp();
   bench_.actuate(wishes_);
   io_.send();
+  recorder_.endCycle(bench_, bench_.record());
   actuated_ = true;
 }
 

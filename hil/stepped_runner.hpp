@@ -5,6 +5,7 @@
 #include "hil/bench_io.hpp"
 #include "hil/bench_runner.hpp"
 #include "hil/bring_up.hpp"
+#include "hil/recorder/recorded_bus.hpp"
 
 namespace ballbot {
 
@@ -14,10 +15,12 @@ namespace ballbot {
 class SteppedRunner final : public BenchRunner {
  public:
   /// The buses must outlive this.
+  /// @param recorded_s  that the flight recorder keeps
   /// @param patience  for the answers of one cycle; what has not come then counts as missing. After
   ///                  a cycle with missing ones, and on the way down, the wait is shorter
   SteppedRunner(const BenchConfig& config, std::vector<CanBus*> buses,
-                std::chrono::milliseconds patience = std::chrono::seconds(5));
+                std::chrono::milliseconds patience = std::chrono::seconds(5),
+                double recorded_s = FlightRecorder::kDefaultSeconds);
   ~SteppedRunner() override;
 
   const BenchSample& watch() override;
@@ -27,6 +30,7 @@ class SteppedRunner final : public BenchRunner {
   void release() noexcept override;
   void requireGoodEnd() override { ballbot::requireGoodEnd(bench_); }
   const Bench& bench() const override { return bench_; }
+  const FlightRecorder& recorder() const override { return recorder_; }
   const BenchIo& io() const { return io_; }
 
  private:
@@ -39,6 +43,8 @@ class SteppedRunner final : public BenchRunner {
   std::chrono::milliseconds patience() const noexcept;
 
   Bench bench_;
+  FlightRecorder recorder_;
+  RecordedBuses recorded_;
   BenchIo io_;
   std::chrono::milliseconds patience_;
   Bench::Wishes wishes_;

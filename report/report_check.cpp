@@ -42,6 +42,35 @@ void checkChannel(const std::string& where, int channel) {
            fmt::format("has colour channel {}, must be 0 to {}", channel, kChannelCount - 1));
 }
 
+void checkLane(const StateLane& lane) {
+  for (std::size_t i = 0; i < lane.stretches.size(); ++i) {
+    const LaneStretch& s = lane.stretches[i];
+    const bool ascends = i == 0 || s.start_s >= lane.stretches[i - 1].end_s;
+    if (std::isfinite(s.start_s) && std::isfinite(s.end_s) && s.end_s >= s.start_s && ascends)
+      continue;
+    refuse("lane '" + lane.name + "'",
+           fmt::format(
+               "has '{}' from {} s to {} s at index {}, {}", s.word, s.start_s, s.end_s, i,
+               ascends ? "which is no stretch of time" : "before the one before it has ended"));
+  }
+}
+
+void checkTable(const ReportTable& table) {
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    if (table.rows[i].cells.size() == table.columns.size()) continue;
+    refuse("table '" + table.title + "'",
+           fmt::format("has {} cells in row {} for {} columns", table.rows[i].cells.size(), i,
+                       table.columns.size()));
+  }
+}
+
+void checkFact(const ReportData& data, const ReportFact& fact) {
+  const bool found = std::any_of(data.documents.begin(), data.documents.end(),
+                                 [&](const auto& d) { return d.name == fact.document; });
+  if (!fact.document.empty() && !found)
+    refuse("fact '" + fact.name + "'", "opens '" + fact.document + "', which is no document of it");
+}
+
 void checkGroup(const PlotGroup& group) {
   for (const PlotAxes& axes : group.axes) {
     for (const PlotSeries& series : axes.series) {
@@ -51,6 +80,7 @@ void checkGroup(const PlotGroup& group) {
       checkChannel(where, series.channel);
     }
   }
+  for (const StateLane& lane : group.lanes) checkLane(lane);
   for (const PathAxes& axes : group.paths) {
     for (const PathSeries& series : axes.series) {
       const std::string where = nameOf(axes.title, series);
@@ -96,6 +126,12 @@ void checkReportData(const ReportData& data, const std::string& urdf_text) {
     refuse("the run",
            fmt::format("spans {} s to {} s, must have a duration", data.start_s, data.end_s));
   for (const PlotGroup& group : data.groups) checkGroup(group);
+  for (const ReportTable& table : data.tables) checkTable(table);
+  for (const ReportFact& fact : data.headline) checkFact(data, fact);
+  if (data.view && !(data.view->start_s >= data.start_s && data.view->end_s <= data.end_s &&
+                     data.view->end_s > data.view->start_s))
+    refuse("the view", fmt::format("spans {} s to {} s, must lie in the run's {} s to {} s",
+                                   data.view->start_s, data.view->end_s, data.start_s, data.end_s));
   for (const ReportPhase& phase : data.phases) {
     if (!(std::isfinite(phase.start_s) && std::isfinite(phase.end_s) &&
           phase.end_s >= phase.start_s))

@@ -55,12 +55,29 @@ struct PathAxes {
   std::vector<PathSeries> series;
 };
 
+/// How much attention a state wants; it decides the shade of its stretch.
+enum class LaneTone { kQuiet, kReady, kActive, kWarning, kBad };
+
+/// A stretch of time in which something was in one state, which its word names.
+struct LaneStretch {
+  double start_s = 0, end_s = 0;
+  std::string word;
+  LaneTone tone = LaneTone::kQuiet;
+};
+
+/// The states of one thing over time; stretches ascend and do not overlap.
+struct StateLane {
+  std::string name;
+  std::vector<LaneStretch> stretches;
+};
+
 /// Axes drawn under each other under one heading, as the panels of a paper's figure.
 struct PlotGroup {
   std::string title;
   std::string caption;  ///< one or two sentences: what to look for; may be empty
-  std::vector<PlotAxes> axes;
-  std::vector<PathAxes> paths;
+  std::vector<PlotAxes> axes = {};
+  std::vector<PathAxes> paths = {};
+  std::vector<StateLane> lanes = {};  ///< above the axes, over the same time
 };
 
 /// A stretch of time shaded in every plot.
@@ -91,6 +108,24 @@ struct ReportMetric {
 /// A name and a text: a line of the manifest.
 struct ReportFact {
   std::string name, text;
+  std::string document = {};  ///< name of the document to open from here; may be empty
+};
+
+/// A table of words. Rows that are marked stand out.
+struct ReportTable {
+  struct Row {
+    std::vector<std::string> cells;
+    bool marked = false;
+  };
+  std::string title, caption;
+  std::vector<std::string> columns;
+  std::vector<Row> rows;
+  bool first = false;  ///< before the figures; else after them
+};
+
+/// What the page shows when it is opened, instead of all: a stretch of time, and the present time.
+struct ReportView {
+  double start_s = 0, end_s = 0, at_s = 0;
 };
 
 /// A longer text, folded away until someone opens it: the scenario, the configuration.
@@ -161,6 +196,8 @@ struct ReportData {
   std::vector<ReportFact> manifest;
   std::vector<ReportDocument> documents;
   double start_s = 0, end_s = 0;  ///< what the time axes span
+  std::vector<ReportTable> tables = {};
+  std::optional<ReportView> view = {};
 };
 
 }  // namespace ballbot

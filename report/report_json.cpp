@@ -44,6 +44,22 @@ const char* toText(ReportPhase::Kind kind) {
   return "push";
 }
 
+const char* toText(LaneTone tone) {
+  switch (tone) {
+    case LaneTone::kQuiet:
+      return "quiet";
+    case LaneTone::kReady:
+      return "ready";
+    case LaneTone::kActive:
+      return "active";
+    case LaneTone::kWarning:
+      return "warning";
+    case LaneTone::kBad:
+      return "bad";
+  }
+  return "quiet";
+}
+
 /// Lists every distinct vector of times once.
 class TimeTable {
  public:
@@ -131,6 +147,35 @@ Json pathJson(const PathAxes& axes, std::size_t wanted, TimeTable& times) {
           {"series", std::move(series)}};
 }
 
+Json lanesJson(const std::vector<StateLane>& lanes) {
+  Json list = Json::array();
+  for (const StateLane& lane : lanes) {
+    Json stretches = Json::array();
+    for (const LaneStretch& s : lane.stretches) {
+      stretches.push_back(
+          {{"start", s.start_s}, {"end", s.end_s}, {"word", s.word}, {"tone", toText(s.tone)}});
+    }
+    list.push_back({{"name", lane.name}, {"stretches", std::move(stretches)}});
+  }
+  return list;
+}
+
+Json tablesJson(const std::vector<ReportTable>& tables) {
+  Json list = Json::array();
+  for (const ReportTable& table : tables) {
+    Json rows = Json::array();
+    for (const ReportTable::Row& row : table.rows) {
+      rows.push_back({{"cells", row.cells}, {"marked", row.marked}});
+    }
+    list.push_back({{"title", table.title},
+                    {"caption", table.caption},
+                    {"columns", table.columns},
+                    {"rows", std::move(rows)},
+                    {"first", table.first}});
+  }
+  return list;
+}
+
 Json groupsJson(const ReportData& data, std::size_t wanted, TimeTable& times) {
   Json list = Json::array();
   for (const PlotGroup& group : data.groups) {
@@ -140,7 +185,8 @@ Json groupsJson(const ReportData& data, std::size_t wanted, TimeTable& times) {
     list.push_back({{"title", group.title},
                     {"caption", group.caption},
                     {"axes", std::move(axes)},
-                    {"paths", std::move(paths)}});
+                    {"paths", std::move(paths)},
+                    {"lanes", lanesJson(group.lanes)}});
   }
   return list;
 }
@@ -202,7 +248,8 @@ Json replayJson(const ReportReplay& replay, const std::string& urdf_text, double
 
 Json factsJson(const std::vector<ReportFact>& facts) {
   Json list = Json::array();
-  for (const ReportFact& fact : facts) list.push_back({{"name", fact.name}, {"text", fact.text}});
+  for (const ReportFact& fact : facts)
+    list.push_back({{"name", fact.name}, {"text", fact.text}, {"document", fact.document}});
   return list;
 }
 
@@ -246,7 +293,13 @@ nlohmann::ordered_json reportJson(const ReportData& data, const std::string& urd
                {"groups", groupsJson(data, size.samples_per_series, times)},
                {"replay", nullptr},
                {"manifest", factsJson(data.manifest)},
-               {"documents", std::move(documents)}};
+               {"documents", std::move(documents)},
+               {"tables", tablesJson(data.tables)},
+               {"view", nullptr}};
+  if (data.view) {
+    page["view"] = {
+        {"start", data.view->start_s}, {"end", data.view->end_s}, {"at", data.view->at_s}};
+  }
   if (data.replay) page["replay"] = replayJson(*data.replay, urdf_text, size.replay_rate_Hz, times);
   page["times"] = times.json();
   return page;

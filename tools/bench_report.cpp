@@ -6,56 +6,18 @@
 
 #include <fmt/format.h>
 
+#include "tools/histogram_report.hpp"
+#include "tools/latency_report.hpp"
+
 namespace ballbot {
 namespace {
 
 using Report = nlohmann::ordered_json;
 
-// Where the rows of a printed histogram begin [us].
-constexpr std::int64_t kRowsUs[] = {0,    10,   20,   50,    100,   200,   500,
-                                    1000, 2000, 5000, 10000, 20000, 50000, 100000};
-constexpr int kBarLength = 40;
-
-Report latenessJson(const JitterHistogram& h) {
-  Report out;
-  const std::pair<const char*, double> shares[] = {
-      {"p50_us", 0.5}, {"p99_us", 0.99}, {"p999_us", 0.999}, {"max_us", 1.0}};
-  for (const auto& [name, share] : shares) {
-    out[name] = 1e-3 * static_cast<double>(h.percentile(share));
-  }
-  out["histogram"] = Report::array();
-  for (std::size_t i = 0; i < std::size(kRowsUs); ++i) {
-    const bool last = i + 1 == std::size(kRowsUs);
-    const std::int64_t end = last ? JitterHistogram::kEnd : 1000 * kRowsUs[i + 1];
-    out["histogram"].push_back(
-        {{"from_us", kRowsUs[i]}, {"count", h.between(1000 * kRowsUs[i], end)}});
-  }
-  return out;
-}
-
-std::string latenessText(const char* what, const Report& late) {
-  std::string out = fmt::format("{}: p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, max {:.0f} us\n", what,
-                                late["p50_us"].get<double>(), late["p99_us"].get<double>(),
-                                late["p999_us"].get<double>(), late["max_us"].get<double>());
-  std::int64_t most = 1;
-  for (const Report& row : late["histogram"])
-    most = std::max(most, row["count"].get<std::int64_t>());
-  for (const Report& row : late["histogram"]) {
-    const auto count = row["count"].get<std::int64_t>();
-    if (count == 0) continue;
-    // One mark for the rare ones, too: they are what one looks for.
-    const auto marks =
-        static_cast<std::size_t>(std::max<std::int64_t>(1, kBarLength * count / most));
-    out += fmt::format("  from {:>6} us {:>9}  {}\n", row["from_us"].get<std::int64_t>(), count,
-                       std::string(marks, '#'));
-  }
-  return out;
-}
-
 std::string realtimeText(const Report& r) {
   std::string out = fmt::format("real time: {}\n", r["granted"].get<std::string>());
-  out += latenessText("SYNC late by", r["wake_late"]);
-  out += latenessText("torque on its way after the deadline of SYNC", r["sync_to_torque"]);
+  out += histogramText("SYNC late by", r["wake_late"]);
+  out += histogramText("torque on its way after the deadline of SYNC", r["sync_to_torque"]);
   out += fmt::format("deadline misses: {} cycles took longer than their period, {} periods skipped",
                      r["overruns"].get<std::int64_t>(), r["periods_skipped"].get<std::int64_t>());
   for (const Report& row : r["misses"]) {
@@ -91,7 +53,9 @@ Report benchJson(const Bench& bench, const BenchIo& io) {
   return out;
 }
 
-Report realtimeJson(const RealtimeRunner::Statistics& s) {
+Report realtimeJson(const RealtimeRunner& runner, const KernelFloor::Result* before,
+                    const KernelFloor::Result* meanwhile) {
+  const RealtimeRunner::Statistics& s = runner.statistics();
   Report out;
   out["granted"] = s.grant.text;
   out["cycles"] = s.cycles;
@@ -103,8 +67,9 @@ Report realtimeJson(const RealtimeRunner::Statistics& s) {
   }
   out["cycles_without_new_command"] = s.commands_missing;
   out["records_lost"] = s.records_lost;
-  out["wake_late"] = latenessJson(s.wake);
-  out["sync_to_torque"] = latenessJson(s.act);
+  out["wake_late"] = histogramJson(s.wake);
+  out["sync_to_torque"] = histogramJson(s.act);
+  out["latency"] = latencyJson(runner, before, meanwhile);
   return out;
 }
 
@@ -125,7 +90,8 @@ std::string benchText(const Report& r) {
   }
   out += fmt::format("PDOs of wrong length: {}, too late: {}\n", r["bad_pdos"].get<std::int64_t>(),
                      r["late_pdos"].get<std::int64_t>());
-  return r.contains("realtime") ? out + realtimeText(r["realtime"]) : out;
+  if (!r.contains("realtime")) return out;
+  return out + realtimeText(r["realtime"]) + latencyText(r["realtime"]["latency"]);
 }
 
 bool allGood(const std::vector<NodeReport>& nodes) {

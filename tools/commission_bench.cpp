@@ -11,7 +11,6 @@
 
 #include "hil/bench_check.hpp"
 #include "hil/commissioning/commissioning.hpp"
-#include "hil/data_sheet_check.hpp"
 #include "hil/realtime_runner.hpp"
 #include "hil/rehearsal/commissioning_trial.hpp"
 #include "hil/stepped_runner.hpp"
@@ -110,7 +109,6 @@ ExitCode commissionBench(const ConfigNode& tree, const CommissionArguments& a,
     throw InputError("hil: --commission needs --person NAME: who has done it signs the record");
   }
   const BenchConfig config = readBenchConfig(tree);
-  requireDataSheets(config);
   const std::vector<NodeReport> nodes = requireNodes(config, buses);
   CommissioningReport report;
   if (config.stepped) {

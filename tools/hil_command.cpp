@@ -1,5 +1,6 @@
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,14 @@
 #include "hil/bench_check.hpp"
 #include "hil/data_sheet_check.hpp"
 #include "hil/hil_participant.hpp"
+#include "hil/latency/kernel_floor.hpp"
 #include "hil/open_can_bus.hpp"
 #include "hil/realtime_runner.hpp"
 #include "hil/record_writer.hpp"
 #include "hil/rehearsal/fault_table.hpp"
 #include "hil/stepped_runner.hpp"
 #include "report/json_text.hpp"
+#include "tools/bench_record.hpp"
 #include "tools/bench_report.hpp"
 #include "tools/bench_scenario.hpp"
 #include "tools/commands.hpp"
@@ -31,8 +34,11 @@ struct HilArguments {
   std::string config;
   std::vector<std::string> overrides;
   std::string lcm_url = sharedLcmAddress().url, channel = sharedLcmAddress().channel;
-  std::string record, commissioning_record, person, without_commissioning;
+  std::string record, show_record, commissioning_record, person, without_commissioning;
   bool commission = false, rehearse = false;
+  RecordOptions records;
+  double floor_s = 1;
+  bool floor_meanwhile = false;
   bool faults = false, checks = false, check = false, keep_serving = false, json = false;
   int random = 0;
   std::uint64_t seed = 1;
@@ -167,8 +173,38 @@ CommissionArguments commissionArguments(const HilArguments& a) {
 
 ExitCode commissionOpened(const HilArguments& a) {
   const ConfigNode tree = loadBenchTree(a.config, a.overrides);
-  const OpenBuses buses(readBenchConfig(tree));
+  const BenchConfig config = readBenchConfig(tree);
+  requireDataSheets(config);
+  const OpenBuses buses(config);
   return commissionBench(tree, commissionArguments(a), buses.ends);
+}
+
+/// The last word, with the record before it. @throw what conclude() does, OutputError
+ExitCode concludeRecorded(const BenchRunner& runner, const Ending& ending, const HilArguments& a,
+                          std::uint64_t digest) {
+  RunEnd end;
+  std::exception_ptr error;
+  try {
+    end.code = conclude(runner.bench(), ending);
+  } catch (const Error& e) {
+    error = std::current_exception();
+    end = {e.exitCode(), e.what()};
+  }
+  RunFacts facts;
+  facts.bench_file = a.config;
+  facts.overrides = a.overrides;
+  facts.config_digest = fmt::format("{:016x}", digest);
+  recordRun(runner, facts, end, a.records);
+  if (error) std::rethrow_exception(error);
+  return end.code;
+}
+
+/// The kernel's floor as this bench's loop would have it.
+FloorSettings floorOf(const BenchConfig& config) {
+  FloorSettings settings;
+  settings.priority = config.realtime.priority;
+  settings.period_ns = config.cycle.count();
+  return settings;
 }
 
 ExitCode serveBench(const HilArguments& a) {
@@ -177,6 +213,11 @@ ExitCode serveBench(const HilArguments& a) {
   const std::uint64_t digest = configDigest64(loadBenchScenario(config, a.config));
   requireDataSheets(config);
   requireFreeAddress({a.lcm_url, a.channel});
+  std::optional<KernelFloor::Result> before;
+  if (!config.stepped && a.floor_s > 0) {
+    fmt::print(stderr, "hil: measures the kernel's floor for {:.3g} s\n", a.floor_s);
+    before = measureFloor(floorOf(config), a.floor_s, interruptFlag());
+  }
   const OpenBuses buses(config);
   fmt::print(stderr,
              "hil: this program is no emergency stop. Keep the hardware one (STO) within reach.\n");
@@ -191,19 +232,22 @@ ExitCode serveBench(const HilArguments& a) {
     SteppedRunner runner(config, buses.ends);
     const Ending ending = serveRunner(runner, a, digest);
     report(benchJson(runner.bench(), runner.io()));
-    return conclude(runner.bench(), ending);
+    return concludeRecorded(runner, ending, a, digest);
   }
   RealtimeRunner runner(config, buses.ends);
   Ending ending;
+  std::unique_ptr<KernelFloor> beside;
+  if (a.floor_meanwhile) beside = std::make_unique<KernelFloor>(floorOf(config));
   {
     RecordWriter writer(runner.records(), a.record);
     ending = serveRunner(runner, a, digest);
     runner.finish();
   }
   nlohmann::ordered_json j = benchJson(runner.bench(), runner.io());
-  j["realtime"] = realtimeJson(runner.statistics());
+  j["realtime"] = realtimeJson(runner, before ? &*before : nullptr,
+                               beside ? &beside->finish() : nullptr);
   report(j);
-  return conclude(runner.bench(), ending);
+  return concludeRecorded(runner, ending, a, digest);
 }
 
 }  // namespace
@@ -222,6 +266,16 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
   command->add_option("--channel", a->channel, "LCM channel")->capture_default_str();
   command->add_flag("--keep-serving", a->keep_serving, "Serve run after run until Ctrl-C");
   command->add_option("--record", a->record, "Write every cycle to this CSV file (real time only)");
+  command
+      ->add_option("--floor-seconds", a->floor_s,
+                   "Real time: measure the kernel's own latency so long before the bench; 0: not")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  command->add_flag("--floor-meanwhile", a->floor_meanwhile,
+                    "Measure it beside the bench, too, in a thread of the same settings");
+  addRecordOptions(*command, a->records);
+  command->add_option("--show-record", a->show_record,
+                      "Print the record in this folder: what fired first, what was around it");
   command->add_flag("--check", a->check,
                     "Ask every node what it is, change nothing, print a table and what disagrees");
   command->add_flag(
@@ -251,11 +305,14 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
       "  ballbot drives configs/hil/bench.yaml\n"
       "  ballbot hil configs/hil/bench.yaml\n"
       "  ballbot controller configs/scenarios/bench_balance.yaml\n"
+      "When a check fires, its last 20 s are written: every frame, every cycle, a page to look at.\n"
+      "  ballbot hil --show-record runs/bench-drive_fault-1.0575s\n"
       "Software is no emergency stop: docs/hil.md.\n"
       "Exit codes: 0 the run ended, 1 a fault did not end as it must (--faults), or\n"
       "commissioning found something wrong, 2 bad input,\n"
-      "3 a check of the bench fired or the controller was lost, 5 a drive has not said that its\n"
-      "torque is off: pull the switch that is named, 130 interrupted.");
+      "3 a check of the bench fired or the controller was lost, 4 a record that was asked for could\n"
+      "not be written, 5 a drive has not said that its torque is off: pull the switch that is named,\n"
+      "130 interrupted.");
   command->callback([&result, a] {
     if (a->checks) {
       result = showChecks(a->json);
@@ -268,6 +325,11 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
     if (a->faults) {
       result = showRows(a->random > 0 ? rehearseRandomFaults(a->random, a->seed) : rehearseFaults(),
                         a->json);
+      return;
+    }
+    if (!a->show_record.empty()) {
+      showRecord(a->show_record, a->json);
+      result = ExitCode::kPassed;
       return;
     }
     if (a->config.empty()) throw InputError("hil: give a bench file, e.g. configs/hil/bench.yaml");

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -19,6 +20,7 @@
 #include "model/actuator_response.hpp"
 #include "plant/plant_config.hpp"
 #include "report/json_text.hpp"
+#include "tools/bench_record.hpp"
 #include "tools/bench_report.hpp"
 #include "tools/bench_scenario.hpp"
 #include "tools/commands.hpp"
@@ -33,6 +35,7 @@ struct IdentifyArguments {
   ExcitationPlan plan;
   int drive = 1;
   bool json = false;
+  RecordOptions records;
 };
 
 nlohmann::ordered_json responseJson(const TorqueResponse& r) {
@@ -96,6 +99,27 @@ IdentifiedScenario meaningOf(const Identification& found, const IdentifyArgument
   return out;
 }
 
+/// Identifies, and leaves a record where the bench stopped or one is wanted.
+Identification identifyRecorded(BenchRunner& runner, const IdentifyArguments& a) {
+  Identification found;
+  RunEnd end;
+  std::exception_ptr error;
+  try {
+    found = identifyDrive(runner, a.plan, interruptFlag());
+  } catch (const Error& e) {
+    error = std::current_exception();
+    end = {e.exitCode(), e.what()};
+  }
+  runner.release();
+  if (auto* realtime = dynamic_cast<RealtimeRunner*>(&runner)) realtime->finish();
+  RunFacts facts;
+  facts.bench_file = a.config;
+  facts.overrides = a.overrides;
+  recordRun(runner, facts, end, a.records);
+  if (error) std::rethrow_exception(error);
+  return found;
+}
+
 ExitCode identifyOnBench(IdentifyArguments a) {
   const BenchConfig config =
       forIdentification(readBenchConfig(loadBenchTree(a.config, a.overrides)));
@@ -118,7 +142,7 @@ ExitCode identifyOnBench(IdentifyArguments a) {
   const std::string& name = config.drives[static_cast<std::size_t>(a.plan.drive)].name;
   fmt::print(stderr, "identify: {} gets up to {} Nm for {:.3g} s. Block its joint.\n", name,
              a.plan.amplitude_Nm + std::abs(a.plan.bias_Nm), a.plan.records * a.plan.record_s);
-  const Identification found = identifyDrive(*runner, a.plan, interruptFlag());
+  const Identification found = identifyRecorded(*runner, a);
   const IdentifiedScenario meaning = meaningOf(found, a, scenario);
   const std::string yaml = identifiedYaml(name, found, meaning);
   if (!a.out.empty()) writeIdentifiedFile(a.out, yaml);
@@ -137,7 +161,7 @@ ExitCode identifyOnBench(IdentifyArguments a) {
     if (auto* realtime = dynamic_cast<RealtimeRunner*>(runner.get())) {
       realtime->finish();
       j["bench"] = benchJson(realtime->bench(), realtime->io());
-      j["realtime"] = realtimeJson(realtime->statistics());
+      j["realtime"] = realtimeJson(*realtime);
     }
     fmt::print("{}\n", jsonText(j));
   } else {
@@ -174,6 +198,7 @@ void addIdentifyCommand(CLI::App& program, ExitCode& result) {
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
+  addRecordOptions(*command, a->records);
   command->add_flag("--json", a->json, "Print fits and points as JSON");
   command->footer(
       "The joint must be blocked, or what is measured is the joint.\n"

@@ -22,6 +22,7 @@ class LockstepRunner final : public BenchRunner {
   void release() noexcept override;
   void requireGoodEnd() override { inner_.requireGoodEnd(); }
   const Bench& bench() const override { return inner_.bench(); }
+  const FlightRecorder& recorder() const override { return inner_.recorder(); }
 
  private:
   template <typename Call>

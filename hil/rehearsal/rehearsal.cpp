@@ -14,6 +14,7 @@ namespace {
 constexpr int kEngagePatience = 4000;
 constexpr std::chrono::milliseconds kMoment{2};
 constexpr std::uint32_t kSync = 0x080;
+constexpr double kRecordedSeconds = 1;  // a trial is short, and there are hundreds
 
 EmulatorConfig emulatorFor(const BenchConfig& config,
                            const std::function<void(EmulatorConfig&)>& change) {
@@ -67,9 +68,10 @@ Rehearsal::Rehearsal(const BenchConfig& config, RunnerKind kind, const EmulatorC
     if (f.id == kSync) torque_.onCycleEnd();
   });
   if (kind == RunnerKind::kStepped) {
-    runner_ = std::make_unique<SteppedRunner>(config_, ends);
+    runner_ =
+        std::make_unique<SteppedRunner>(config_, ends, std::chrono::seconds(5), kRecordedSeconds);
   } else {
-    auto runner = std::make_unique<RealtimeRunner>(config_, ends, &clock_);
+    auto runner = std::make_unique<RealtimeRunner>(config_, ends, &clock_, kRecordedSeconds);
     realtime_ = runner.get();
     lockstep_ = std::make_unique<LockstepRunner>(*realtime_, clock_);
     runner_ = std::move(runner);

@@ -63,6 +63,8 @@ class Rehearsal {
 
   RunnerKind kind() const { return kind_; }
   const Bench& bench() const;
+  /// After finish().
+  const FlightRecorder& recorder() const { return runner_->recorder(); }
   EmulatedBench& drives() { return drives_; }
   TamperedBus& wire(int bus) { return *wires_[static_cast<std::size_t>(bus)]; }
   TorqueWatch& torque() { return torque_; }

@@ -1,6 +1,7 @@
 // The bench's cycle allocates nothing, from the first torque over a fault to the last word.
 #include <gtest/gtest.h>
 
+#include "hil/recorder/recorded_bus.hpp"
 #include "tests/controller/support/allocation_counter.hpp"
 #include "tests/hil/support/bench_fixture.hpp"
 
@@ -48,6 +49,46 @@ TEST(BenchCycle, AllocatesNothingWithTorqueOnNorOnTheWayDown) {
   for (int i = 0; i < 100; ++i) count += allocationsOfCycle(f);
   EXPECT_EQ(f.bench.safety().state(), SafetyState::kFault);
   EXPECT_EQ(count, 0);
+}
+
+/// A bus that always has a frame.
+class TalkingBus final : public CanBus {
+ public:
+  bool send(const CanFrame&) noexcept override { return true; }
+  bool receive(CanFrame& out) noexcept override {
+    out.id = 0x181;
+    return true;
+  }
+  bool waitReadable(std::chrono::nanoseconds) noexcept override { return true; }
+  int descriptor() const noexcept override { return -1; }
+  bool isUp() const noexcept override { return true; }
+  const CanCounters& counters() const noexcept override { return counters_; }
+  std::string describe() const override { return "talking"; }
+
+ private:
+  CanCounters counters_;
+};
+
+TEST(FlightRecorder, AllocatesNothingWhileItRecordsAlsoBeyondItsCapacity) {
+  if (!allocationsAreCounted()) GTEST_SKIP() << "a sanitizer brings its own malloc";
+  BenchFixture f;
+  ASSERT_TRUE(f.engage()) << f.bench.faultText();
+  FlightRecorder recorder(f.config, nullptr, 0.05);
+  TalkingBus inner;
+  RecordedBus bus(inner, 0, recorder);
+  CanFrame frame;
+  const std::int64_t before = allocationCount();
+  for (int cycle = 1; cycle <= 200; ++cycle) {
+    recorder.beginCycle(cycle);
+    for (int i = 0; i < 20; ++i) {
+      bus.receive(frame);
+      bus.send(frame);
+    }
+    recorder.endCycle(f.bench, f.bench.record());
+  }
+  EXPECT_EQ(allocationCount(), before);
+  EXPECT_EQ(recorder.frames().pushed(), 8000U);
+  EXPECT_EQ(recorder.frames().size(), recorder.frames().capacity()) << "it has overwritten";
 }
 
 }  // namespace

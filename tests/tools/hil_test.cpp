@@ -1,6 +1,7 @@
 // The bench as a person runs it: programs of their own, joined by LCM and pseudo terminals.
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -84,15 +85,49 @@ TEST(BenchPrograms, AFaultOfADriveEndsTheRunWithItsReason) {
   Drives drives(
       {"--set", "emulator.faults=[{at_cycle: 150, kind: emergency, drive: 2, value: 17168}]"});
   const std::string channel = "HILFAULT" + std::to_string(::getpid());
-  Program hil(drives.with({"hil", kBench, "--channel", channel}));
   const TemporaryFolder folder;
+  Program hil(drives.with({"hil", kBench, "--channel", channel, "--records", folder / "records"}));
   const Finished controller =
       runBallbot({"controller", kConfigs + "scenarios/bench_balance.yaml", "--channel", channel,
                   "--out", folder / "run", "--no-report", "--quiet"});
   EXPECT_EQ(controller.exit_code, 3);
   EXPECT_THAT(controller.err, HasSubstr("wheel 2: node 2: emergency 4310 (drive too hot)"));
-  EXPECT_EQ(hil.finish().exit_code, 3);
+  const Finished bench = hil.finish();
+  EXPECT_EQ(bench.exit_code, 3);
   EXPECT_FALSE(drives.finish()["torque_on"]);
+  // It says where its last seconds are, and reads them again.
+  const std::filesystem::directory_iterator records(folder / "records");
+  const std::string record = records->path();
+  EXPECT_THAT(bench.err, HasSubstr(record + "/fault.html"));
+  const Finished shown = runBallbot({"hil", "--show-record", record});
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_THAT(shown.out, HasSubstr("first check: node_trouble, cycle "));
+  EXPECT_THAT(shown.out, HasSubstr("EMCY         4310 (drive too hot), error register 89"));
+  const Finished as_json = runBallbot({"hil", "--show-record", record, "--json"});
+  EXPECT_EQ(Json::parse(as_json.out)["first_check"]["subject"], "wheel 2");
+  EXPECT_EQ(Json::parse(as_json.out)["exit_code"], 3);
+  const Finished none = runBallbot({"hil", "--show-record", folder / "run"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("record.json: cannot be read; give the folder of a record"));
+}
+
+// A good run leaves a record where one is wanted, and only there.
+TEST(BenchPrograms, AGoodRunLeavesARecordOnRequest) {
+  Drives drives({"--set", "emulator.rig={blocked: true}"});
+  const TemporaryFolder folder;
+  const std::vector<std::string> identify = {"identify", kBench,      "--record-s",
+                                             "0.5",      "--records", folder / "records"};
+  EXPECT_EQ(runBallbot(drives.with(identify)).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "records"));
+  std::vector<std::string> kept = identify;
+  kept.push_back("--keep-record");
+  const Finished f = runBallbot(drives.with(kept));
+  EXPECT_EQ(f.exit_code, 0) << f.err;
+  const std::filesystem::directory_iterator records(folder / "records");
+  EXPECT_THAT(records->path().filename().string(), ::testing::StartsWith("bench-kept-"));
+  const Finished shown = runBallbot({"hil", "--show-record", records->path()});
+  EXPECT_THAT(shown.out, HasSubstr("first check: none fired"));
+  drives.finish();
 }
 
 TEST(BenchPrograms, CheckFindsSevenNodesAndNamesWhatDiffers) {
@@ -162,8 +197,9 @@ TEST(BenchPrograms, RealTimeRunsOrSaysWhyNotAndStopsWithTheDrivesOff) {
                  "safety={late_cycles: 100, stale_cycles: 100, heartbeat_timeout_ms: 2000, "
                  "transition_timeout_ms: 5000, command_watchdog_ms: 5000}",
                  "--set", "master_timeout_ms=1000", "--set", "output_deadline_ms=1000"});
-  const Finished f =
-      runBallbot(drives.with({"identify", kBench, "--drive", "1", "--record-s", "0.5", "--json"}));
+  const TemporaryFolder folder;
+  const Finished f = runBallbot(drives.with({"identify", kBench, "--drive", "1", "--record-s",
+                                             "0.5", "--json", "--records", folder / "records"}));
   if (f.exit_code == 0) {
     const Json report = Json::parse(f.out);
     EXPECT_EQ(report["bench"]["state"], "disabled");

@@ -48,6 +48,51 @@ onPage('shows verdict, title, requirements and manifest of a run that passed', '
   assert.equal(await page.locator('.path-plot svg path.curve').count() > 0, true);
 });
 
+onPage('shows what stopped a bench, opened at the first check', 'fault', {}, async (page) => {
+  const data = await reportData(page);
+  assert.match(await page.title(), /^Failed: Stopped: no new IMU samples/);
+  const header = await page.textContent('header');
+  assert.ok(header.includes('First check: imu_stale'), header);
+  const row = page.locator('#first-table-1 tr.marked');
+  assert.equal(await row.count(), 1);
+  assert.ok((await row.textContent()).startsWith('first'));
+  // One time axis for all, around the check, which is its zero.
+  for (const [start, end] of await windows(page)) assert.deepEqual([start, end], [data.view.start, data.view.end]);
+  assert.equal(await shownTime(page), 0);
+  assert.ok((await page.locator('.lane-plot .lane-bar.bad').count()) > 0);
+  const words = await page.locator('.lane-plot').textContent();
+  for (const text of ['wheel 1', 'operation enabled', 'no new sample', 'first: imu_stale']) assert.ok(words.includes(text), text);
+  assert.ok((await page.textContent('#table-1')).includes('6041:00 statusword'));
+});
+
+onPage('opens the page of troubleshooting from the header of a record', 'fault', {}, async (page) => {
+  const text = page.locator('#document-bench-imu-md pre');
+  assert.ok(!(await text.isVisible()));
+  await page.click('header a');
+  assert.ok(await text.isVisible());
+  assert.ok((await text.textContent()).startsWith('# '));
+});
+
+onPage('zooms and scrubs in the lanes of states as in the plots', 'fault', {}, async (page) => {
+  const box = await page.locator('.lane-plot svg').boundingBox();
+  const y = box.y + 40;
+  await page.mouse.click(box.x + 200, y);
+  await nextFrame(page);
+  const t = await shownTime(page);
+  assert.ok(t < 0, `went to ${t}`);
+  await page.mouse.move(box.x + 200, y);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 400, y);
+  await page.mouse.up();
+  await nextFrame(page);
+  const [start, end] = (await windows(page))[0];
+  assert.ok(Math.abs(start - t) < 0.01 && end > start, `${start} to ${end}`);
+  await page.mouse.dblclick(box.x + 300, y);
+  await nextFrame(page);
+  const data = await reportData(page);
+  assert.deepEqual((await windows(page))[0], [data.start, data.end]);
+});
+
 onPage('says at once that a run failed, and why', 'failed', {}, async (page) => {
   assert.match(await page.title(), /^Failed: /);
   const mark = page.locator('header .verdict-mark');
@@ -212,7 +257,7 @@ onPage('a line can be hidden', 'replay', {}, async (page) => {
   assert.notEqual(await canvas.evaluate((node) => node.toDataURL()), before);
 });
 
-for (const kind of ['replay', 'no-replay', 'failed']) {
+for (const kind of ['replay', 'no-replay', 'failed', 'fault']) {
   onPage(`fits windows from 400 to 1920 px, also while they change (${kind})`, kind, {}, async (page) => {
     for (const width of [400, 1920, 860, 1280, 400]) {
       await page.setViewportSize({ width, height: 800 });

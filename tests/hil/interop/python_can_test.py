@@ -218,5 +218,42 @@ class Adapter(BenchCase):
         port.close()
 
 
+class Records(unittest.TestCase):
+    """The frames that a stopped bench leaves, as other people's tools read them."""
+
+    def test_candump_and_asc_are_read_frame_by_frame(self):
+        drives = Drives(
+            "emulator.rig={blocked: true}",
+            "emulator.faults=[{at_cycle: 300, kind: emergency, drive: 2, value: 17168}]",
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            arguments = [BALLBOT, "identify", BENCH, "--drive", "1", "--records", folder]
+            for i, link in enumerate(drives.links):
+                arguments += ["--set", f'buses.{i}.address="slcan:{link}"']
+            done = subprocess.run(arguments, stderr=subprocess.PIPE, text=True, timeout=120)
+            drives.finish()
+            self.assertEqual(done.returncode, 3, done.stderr)
+            (name,) = os.listdir(folder)
+            self.assertTrue(name.startswith("bench-node_trouble-"), name)
+            record = os.path.join(folder, name)
+            with open(os.path.join(record, "record.json")) as file:
+                count = json.load(file)["frames"]["count"]
+            candump = list(can.LogReader(os.path.join(record, "frames.log")))
+            with can.ASCReader(os.path.join(record, "frames.asc"), relative_timestamp=True) as reader:
+                asc = list(reader)
+        self.assertEqual((len(candump), len(asc)), (count, count))
+        for a, b in zip(candump, asc):
+            self.assertEqual(
+                (a.arbitration_id, a.data, a.dlc, a.is_rx), (b.arbitration_id, b.data, b.dlc, b.is_rx)
+            )
+            self.assertEqual(int(a.channel[3:]), b.channel)
+            self.assertAlmostEqual(a.timestamp, b.timestamp, places=5)
+        self.assertTrue(all(a.timestamp <= b.timestamp for a, b in zip(candump, candump[1:])))
+        (emergency,) = [f for f in candump if f.arbitration_id == 0x082]
+        self.assertEqual(emergency.data[:2], struct.pack("<H", 17168))
+        self.assertTrue(emergency.is_rx)
+        self.assertFalse(next(f for f in candump if f.arbitration_id == 0x080).is_rx, "SYNC is ours")
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -20,6 +20,7 @@ export function decodeGroups(report: ReportJson): Group[] {
   const decodeGroup = (group: GroupJson): Group => ({
     title: group.title,
     caption: group.caption,
+    lanes: group.lanes,
     axes: group.axes.map((axes) => ({
       ...axes,
       series: axes.series.map((s) => ({ ...s, t: times[s.time], values: decodeFloats(s.values) })),

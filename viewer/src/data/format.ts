@@ -38,11 +38,19 @@ export interface PathAxesJson {
   series: PathSeriesJson[];
 }
 
+export type Tone = 'quiet' | 'ready' | 'active' | 'warning' | 'bad';
+
+export interface Lane {
+  name: string;
+  stretches: { start: number; end: number; word: string; tone: Tone }[];
+}
+
 export interface GroupJson {
   title: string;
   caption: string;
   axes: AxesJson[];
   paths: PathAxesJson[];
+  lanes: Lane[];
 }
 
 export interface Phase {
@@ -72,6 +80,18 @@ export interface Fact {
   text: string;
 }
 
+export interface HeadlineFact extends Fact {
+  document: string; // name of the one it opens, or empty
+}
+
+export interface Table {
+  title: string;
+  caption: string;
+  columns: string[];
+  rows: { cells: string[]; marked: boolean }[];
+  first: boolean; // before the figures
+}
+
 export interface ReplayJson {
   urdf: string;
   time: number;
@@ -91,7 +111,7 @@ export interface ReportJson {
   verdict: string;
   start: number;
   end: number;
-  headline: Fact[];
+  headline: HeadlineFact[];
   requirements: Requirement[];
   metrics: Metric[];
   phases: Phase[];
@@ -99,5 +119,7 @@ export interface ReportJson {
   replay: ReplayJson | null;
   manifest: Fact[];
   documents: Fact[];
+  tables: Table[];
+  view: { start: number; end: number; at: number } | null;
   times: TimesJson[];
 }

@@ -1,6 +1,6 @@
 // What the views draw: plain arrays, whatever they came from. A report decodes them from its own
 // text (decode.ts); a live source would build and extend the same arrays.
-import type { PhaseKind, Style } from './format';
+import type { Lane, PhaseKind, Style } from './format';
 
 export interface Series {
   name: string;
@@ -39,6 +39,7 @@ export interface Group {
   caption: string;
   axes: Axes[];
   paths: PathAxes[];
+  lanes: Lane[];
 }
 
 // Rows of x y z qw qx qy qz, one per time, or a single row for what never moves.

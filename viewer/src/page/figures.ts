@@ -1,6 +1,7 @@
 import type { Phase } from '../data/format';
 import type { Group } from '../data/recording';
 import { element } from '../dom';
+import { LanePlot } from '../plots/lane_plot';
 import { PathPlot } from '../plots/path_plot';
 import { phaseKey } from '../plots/phases';
 import { TimePlot } from '../plots/time_plot';
@@ -11,17 +12,19 @@ import type { Timeline } from '../time/timeline';
 export class Figures {
   readonly sections: HTMLElement[];
   private readonly timePlots: TimePlot[] = [];
-  private readonly pathPlots: PathPlot[] = [];
+  private readonly drawnPlots: (PathPlot | LanePlot)[] = [];
 
   constructor(groups: Group[], phases: Phase[], timeline: Timeline) {
     this.sections = groups.map((group, index) => {
       const plots = group.axes.map((axes, i) => {
-        const place = { first: i === 0, last: i === group.axes.length - 1 };
+        const place = { first: i === 0 && group.lanes.length === 0, last: i === group.axes.length - 1 };
         return new TimePlot(axes, phases, timeline, place);
       });
       const paths = group.paths.map((path) => new PathPlot(path, timeline));
+      const lanes =
+        group.lanes.length > 0 ? new LanePlot(group.lanes, phases, timeline, plots.length === 0) : null;
       this.timePlots.push(...plots);
-      this.pathPlots.push(...paths);
+      this.drawnPlots.push(...paths, ...(lanes ? [lanes] : []));
       return element(
         'section',
         { id: `figure-${index + 1}`, class: 'card figure' },
@@ -29,9 +32,10 @@ export class Figures {
           'div',
           { class: 'figure-head' },
           element('h2', {}, group.title),
-          group.axes.length > 0 ? phaseKey(phases) : null,
+          group.axes.length + group.lanes.length > 0 ? phaseKey(phases) : null,
         ),
         group.caption ? element('p', { class: 'caption' }, group.caption) : null,
+        lanes?.root ?? null,
         ...plots.map((plot) => plot.root),
         ...paths.map((plot) => plot.root),
       );
@@ -40,11 +44,11 @@ export class Figures {
 
   draw(theme: Theme, width: number, sharpness = 1): void {
     this.timePlots.forEach((plot) => plot.draw(theme, width, sharpness));
-    this.pathPlots.forEach((plot) => plot.draw(width));
+    this.drawnPlots.forEach((plot) => plot.draw(width));
   }
 
   resize(width: number): void {
     this.timePlots.forEach((plot) => plot.resize(width));
-    this.pathPlots.forEach((plot) => plot.draw(width));
+    this.drawnPlots.forEach((plot) => plot.draw(width));
   }
 }

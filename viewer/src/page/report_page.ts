@@ -8,7 +8,7 @@ import { Transport } from '../time/transport';
 import { Figures } from './figures';
 import { header } from './header';
 import { onPrint, paperSceneHeight, paperSharpness, paperWidth } from './printing';
-import { manifest, metricTables, requirementTable } from './tables';
+import { manifest, metricTables, requirementTable, wordTables } from './tables';
 
 // A browser may show a page before its window has a size; plots wait for room to draw in [CSS px].
 const narrowest = 100;
@@ -22,6 +22,10 @@ function plotWidth(column: HTMLElement): number {
 // Builds the whole page from its data and keeps its views together.
 export function showReport(report: ReportJson, root: HTMLElement): void {
   const timeline = new Timeline(report.start, report.end);
+  if (report.view) {
+    timeline.setWindow(report.view.start, report.view.end);
+    timeline.setTime(report.view.at);
+  }
   const figures = new Figures(decodeGroups(report), report.phases, timeline);
   const transport = new Transport(timeline, report.phases);
   const replay = report.replay
@@ -32,7 +36,9 @@ export function showReport(report: ReportJson, root: HTMLElement): void {
     'div',
     { class: 'column' },
     requirementTable(report.requirements),
+    ...wordTables(report.tables.filter((table) => table.first)),
     ...figures.sections,
+    ...wordTables(report.tables.filter((table) => !table.first)),
     metricTables(report.metrics),
     manifest(report.manifest, report.documents),
   );

@@ -1,7 +1,7 @@
-import type { Fact, Metric, Requirement } from '../data/format';
+import type { Fact, Metric, Requirement, Table } from '../data/format';
 import { element } from '../dom';
 import { numberText } from '../number_text';
-import { verdictMark } from './header';
+import { documentId, verdictMark } from './header';
 
 function section(id: string, title: string, ...content: (Node | null)[]): HTMLElement {
   return element('section', { id, class: 'card' }, element('h2', {}, title), ...content);
@@ -62,6 +62,29 @@ export function metricTables(metrics: Metric[]): HTMLElement | null {
   return section('metrics', 'Metrics', element('div', { class: 'table-columns' }, ...tables));
 }
 
+export function wordTables(tables: Table[]): HTMLElement[] {
+  return tables.map((table, index) => {
+    const rows = table.rows.map((row) =>
+      element(
+        'tr',
+        { class: row.marked ? 'marked' : undefined },
+        ...row.cells.map((cell) => element('td', {}, cell)),
+      ),
+    );
+    const head = headRow(...table.columns.map((name): [string, string] => [name, '']));
+    return section(
+      `${table.first ? 'first-' : ''}table-${index + 1}`,
+      table.title,
+      table.caption ? element('p', { class: 'caption' }, table.caption) : null,
+      element(
+        'div',
+        { class: 'words-frame', tabindex: 0 },
+        element('table', { class: 'words' }, head, element('tbody', {}, ...rows)),
+      ),
+    );
+  });
+}
+
 export function manifest(facts: Fact[], documents: Fact[]): HTMLElement | null {
   if (facts.length === 0 && documents.length === 0) return null;
   const rows = facts.map(({ name, text }) =>
@@ -71,7 +94,7 @@ export function manifest(facts: Fact[], documents: Fact[]): HTMLElement | null {
   const texts = documents.map(({ name, text }) =>
     element(
       'details',
-      {},
+      { id: documentId(name) },
       element('summary', {}, name),
       element('pre', { tabindex: 0 }, text),
     ),
