@@ -15,7 +15,7 @@ constexpr std::int64_t kNsPerMs = 1'000'000;
 
 AnswerProbe::AnswerProbe(const BenchConfig& config)
     : now_(config.buses.size()), buses_(config.buses.size()) {
-  for (const BusConfig& bus : config.buses) kbps_.push_back(bus.bitrate_kbps);
+  for (const BusConfig& bus : config.buses) kbps_.push_back(bus.settings.bitrate_kbps);
   for (std::size_t i = 0; i < kNodes; ++i) {
     const bool imu = i == kDriveCount;
     bus_of_[i] = imu ? config.imu.bus : config.drives[i].bus;
