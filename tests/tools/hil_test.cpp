@@ -205,6 +205,11 @@ TEST(BenchPrograms, RealTimeRunsOrSaysWhyNotAndStopsWithTheDrivesOff) {
     EXPECT_EQ(report["bench"]["state"], "disabled");
     EXPECT_GT(report["realtime"]["cycles"], 600) << "three records of 200 cycles";
     EXPECT_FALSE(report["realtime"]["granted"].get<std::string>().empty());
+    const Json& latency = report["realtime"]["latency"];
+    EXPECT_EQ(latency["own_loop"]["whole"]["count"], report["realtime"]["cycles"]);
+    EXPECT_EQ(latency["drives"].size(), 7U);
+    EXPECT_GT(latency["buses"][1]["answers"]["count"], 0);
+    EXPECT_EQ(latency["buses"][1]["has_wire"], false) << "a pseudo terminal";
   } else {
     EXPECT_EQ(f.exit_code, 3) << f.err;
     EXPECT_THAT(f.err, ::testing::AnyOf(HasSubstr("bench: stopped: "), HasSubstr("no drive of"),
