@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 
+#include "core/digest.hpp"
 #include "experiment/build_info.hpp"
 #include "hil/realtime_thread.hpp"
 #include "hil/record/write_record.hpp"
@@ -33,6 +34,17 @@ void addRecordOptions(CLI::App& command, RecordOptions& options) {
                   "Where the last 20 s go when a check fires: in a new folder below this one")
       ->capture_default_str();
   command.add_flag("--keep-record", options.keep, "Leave a record of a good run, too");
+}
+
+RunFacts benchFacts(const std::string& bench_file, const std::vector<std::string>& overrides,
+                    const ConfigNode& tree) {
+  RunFacts facts;
+  facts.bench_file = bench_file;
+  facts.overrides = overrides;
+  Digest digest;
+  digest.add(toYaml(tree));
+  facts.bench_digest = digest.hex();
+  return facts;
 }
 
 void recordRun(const BenchRunner& runner, RunFacts facts, const RunEnd& end,

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/config_node.hpp"
 #include "core/error.hpp"
 #include "hil/bench_runner.hpp"
 #include "hil/record/fault_record.hpp"
@@ -26,10 +27,14 @@ struct RunEnd {
   std::string text;  ///< "" if all is well
 };
 
+/// What a record says of the bench that runs.
+RunFacts benchFacts(const std::string& bench_file, const std::vector<std::string>& overrides,
+                    const ConfigNode& tree);
+
 /// Writes the runner's record where the run calls for one: a check fired, somebody was lost, torque
 /// may be on, or it is wanted. Says on stderr where it is, or what could not be written. The drives
 /// are off, and the runner's loop has ended.
-/// @param facts  all but ending, exit code, runner, program and time
+/// @param facts  as benchFacts() gave them; how the run ended, runner, program and time are added
 /// @throw OutputError  a good run's record that was asked for is not whole; after a fault that is
 /// only
 ///                     said, because the fault is graver

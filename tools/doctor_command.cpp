@@ -8,6 +8,7 @@
 #include "report/json_text.hpp"
 #include "tools/commands.hpp"
 #include "tools/machine_checks.hpp"
+#include "tools/realtime_doctor.hpp"
 
 namespace ballbot {
 namespace {
@@ -46,10 +47,26 @@ ExitCode doctor(bool json) {
 
 void addDoctorCommand(CLI::App& program, ExitCode& result) {
   CLI::App* command = program.add_subcommand("doctor", "Look at what runs need of this machine");
-  const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "Print the findings as JSON");
-  command->footer("Example:\n  ballbot doctor\nExit codes: 0 nothing is broken, 3 runs over LCM cannot work.");
-  command->callback([&result, json] { result = doctor(*json); });
+  const auto realtime = std::make_shared<RealtimeDoctorOptions>();
+  const auto real_time = std::make_shared<bool>(false);
+  command->add_flag("--real-time", *real_time,
+                    "Look at what makes a bench's loop late instead, and measure what it is worth here");
+  command->add_option("--core", realtime->core,
+                      "With it: core of the loop (default: the first isolated one, else the last)")
+      ->check(CLI::Range(0, 4095));
+  command->add_option("--seconds", realtime->seconds, "With it: length of each of four measurements")
+      ->check(CLI::Range(0.05, 3600.0))
+      ->capture_default_str();
+  command->add_flag("--json", realtime->json, "Print the findings as JSON");
+  command->footer(
+      "Example:\n"
+      "  ballbot doctor\n"
+      "  ballbot doctor --real-time --core 1 --seconds 10\n"
+      "Exit codes: 0 nothing is broken, 1 something makes a real-time loop late (--real-time), 2 bad\n"
+      "input, 3 runs over LCM cannot work.");
+  command->callback([&result, realtime, real_time] {
+    result = *real_time ? realtimeDoctor(*realtime) : doctor(realtime->json);
+  });
 }
 
 }  // namespace ballbot

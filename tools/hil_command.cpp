@@ -181,7 +181,7 @@ ExitCode commissionOpened(const HilArguments& a) {
 
 /// The last word, with the record before it. @throw what conclude() does, OutputError
 ExitCode concludeRecorded(const BenchRunner& runner, const Ending& ending, const HilArguments& a,
-                          std::uint64_t digest) {
+                          const RunFacts& facts) {
   RunEnd end;
   std::exception_ptr error;
   try {
@@ -190,10 +190,6 @@ ExitCode concludeRecorded(const BenchRunner& runner, const Ending& ending, const
     error = std::current_exception();
     end = {e.exitCode(), e.what()};
   }
-  RunFacts facts;
-  facts.bench_file = a.config;
-  facts.overrides = a.overrides;
-  facts.config_digest = fmt::format("{:016x}", digest);
   recordRun(runner, facts, end, a.records);
   if (error) std::rethrow_exception(error);
   return end.code;
@@ -212,6 +208,8 @@ ExitCode serveBench(const HilArguments& a) {
   const BenchConfig config = readBenchConfig(tree);
   const std::uint64_t digest = configDigest64(loadBenchScenario(config, a.config));
   requireDataSheets(config);
+  RunFacts facts = benchFacts(a.config, a.overrides, tree);
+  facts.config_digest = fmt::format("{:016x}", digest);
   requireFreeAddress({a.lcm_url, a.channel});
   std::optional<KernelFloor::Result> before;
   if (!config.stepped && a.floor_s > 0) {
@@ -232,7 +230,7 @@ ExitCode serveBench(const HilArguments& a) {
     SteppedRunner runner(config, buses.ends);
     const Ending ending = serveRunner(runner, a, digest);
     report(benchJson(runner.bench(), runner.io()));
-    return concludeRecorded(runner, ending, a, digest);
+    return concludeRecorded(runner, ending, a, facts);
   }
   RealtimeRunner runner(config, buses.ends);
   Ending ending;
@@ -247,7 +245,7 @@ ExitCode serveBench(const HilArguments& a) {
   j["realtime"] = realtimeJson(runner, before ? &*before : nullptr,
                                beside ? &beside->finish() : nullptr);
   report(j);
-  return concludeRecorded(runner, ending, a, digest);
+  return concludeRecorded(runner, ending, a, facts);
 }
 
 }  // namespace

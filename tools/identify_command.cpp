@@ -100,7 +100,8 @@ IdentifiedScenario meaningOf(const Identification& found, const IdentifyArgument
 }
 
 /// Identifies, and leaves a record where the bench stopped or one is wanted.
-Identification identifyRecorded(BenchRunner& runner, const IdentifyArguments& a) {
+Identification identifyRecorded(BenchRunner& runner, const IdentifyArguments& a,
+                                const RunFacts& facts) {
   Identification found;
   RunEnd end;
   std::exception_ptr error;
@@ -112,17 +113,14 @@ Identification identifyRecorded(BenchRunner& runner, const IdentifyArguments& a)
   }
   runner.release();
   if (auto* realtime = dynamic_cast<RealtimeRunner*>(&runner)) realtime->finish();
-  RunFacts facts;
-  facts.bench_file = a.config;
-  facts.overrides = a.overrides;
   recordRun(runner, facts, end, a.records);
   if (error) std::rethrow_exception(error);
   return found;
 }
 
 ExitCode identifyOnBench(IdentifyArguments a) {
-  const BenchConfig config =
-      forIdentification(readBenchConfig(loadBenchTree(a.config, a.overrides)));
+  const ConfigNode tree = loadBenchTree(a.config, a.overrides);
+  const BenchConfig config = forIdentification(readBenchConfig(tree));
   requireDataSheets(config);
   a.plan.drive = a.drive - 1;
   const ScenarioToChange scenario = scenarioToChange(a, config);
@@ -142,7 +140,8 @@ ExitCode identifyOnBench(IdentifyArguments a) {
   const std::string& name = config.drives[static_cast<std::size_t>(a.plan.drive)].name;
   fmt::print(stderr, "identify: {} gets up to {} Nm for {:.3g} s. Block its joint.\n", name,
              a.plan.amplitude_Nm + std::abs(a.plan.bias_Nm), a.plan.records * a.plan.record_s);
-  const Identification found = identifyRecorded(*runner, a);
+  const Identification found =
+      identifyRecorded(*runner, a, benchFacts(a.config, a.overrides, tree));
   const IdentifiedScenario meaning = meaningOf(found, a, scenario);
   const std::string yaml = identifiedYaml(name, found, meaning);
   if (!a.out.empty()) writeIdentifiedFile(a.out, yaml);

@@ -1,11 +1,14 @@
-#include <cmath>
+#include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/printable_text.hpp"
 #include "report/json_text.hpp"
 #include "tools/bench_record.hpp"
 
@@ -26,23 +29,27 @@ RecordJson readRecordJson(const std::string& folder) {
         "it stopped");
   }
   RecordJson j = RecordJson::parse(in, nullptr, false);
-  if (j.is_discarded() || j.value("format", 0) != 1) {
+  const bool is_record = j.is_object() && j.contains("format") && j["format"] == 1;
+  if (!is_record) {
     throw InputError(path + ": not the record of a bench as this version writes it (format 1)");
   }
   return j;
 }
 
-/// Cells of a line; a cell in double quotes, the last of decoded.csv, holds commas.
+/// Cells of a line. A cell in quotes may hold commas, and quotes that are doubled.
 std::vector<std::string> cellsOf(const std::string& line) {
   std::vector<std::string> cells(1);
   bool quoted = false;
-  for (const char c : line) {
-    if (c == '"') {
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool doubled = quoted && line[i] == '"' && i + 1 < line.size() && line[i + 1] == '"';
+    if (doubled) {
+      cells.back() += line[++i];
+    } else if (line[i] == '"') {
       quoted = !quoted;
-    } else if (c == ',' && !quoted) {
+    } else if (line[i] == ',' && !quoted) {
       cells.emplace_back();
     } else {
-      cells.back() += c;
+      cells.back() += line[i];
     }
   }
   return cells;
@@ -72,71 +79,84 @@ std::string fromZero(const std::string& seconds, double zero) {
   return fmt::format("{:+.4f}", std::atof(seconds.c_str()) - zero);
 }
 
-void printCycles(const std::string& folder, std::int64_t middle, double zero, int drive) {
+std::string cyclesText(const std::string& folder, std::int64_t middle, double zero, int drive) {
   const auto rows = rowsOf(folder + "/cycles.csv", middle - kCyclesBefore, middle + kCyclesAfter);
-  if (rows.empty()) return;
+  if (rows.empty()) return "";
   const std::string n = std::to_string(drive >= 0 && drive < kDriveCount ? drive + 1 : 1);
-  fmt::print(
+  std::string text = fmt::format(
       "\ncycles around it, drive {}\n{:>9} {:>8} {:<9} {:<12} {:>6} {:>6} {:>9} {:>9} {:>10} "
       "{:>10}\n",
       n, "time [s]", "cycle", "state", "action", "status", "stale", "felt Nm", "sent Nm",
       "angle rad", "rad/s");
   for (CsvRow r : rows) {
     const auto number = [&](const char* name) { return std::atof(r[name + n].c_str()); };
-    fmt::print("{:>9} {:>8} {:<9} {:<12} {:>6} {:>6} {:>9.4g} {:>9.4g} {:>10.4g} {:>10.4g}\n",
-               fromZero(r["time_s"], zero), r["cycle"], r["state"], r["action"], r["status_" + n],
-               r["stale_" + n], number("torque_Nm_"), number("sent_Nm_"), number("angle_rad_"),
-               number("velocity_rad_per_s_"));
+    text +=
+        fmt::format("{:>9} {:>8} {:<9} {:<12} {:>6} {:>6} {:>9.4g} {:>9.4g} {:>10.4g} {:>10.4g}\n",
+                    fromZero(r["time_s"], zero), r["cycle"], r["state"], r["action"],
+                    r["status_" + n], r["stale_" + n], number("torque_Nm_"), number("sent_Nm_"),
+                    number("angle_rad_"), number("velocity_rad_per_s_"));
   }
+  return text;
 }
 
-void printFrames(const std::string& folder, std::int64_t middle, double zero) {
+std::string framesText(const std::string& folder, std::int64_t middle, double zero) {
   const auto rows = rowsOf(folder + "/decoded.csv", middle - kFrameCyclesBefore, middle);
-  if (!rows.empty()) fmt::print("\nframes of its cycle and of the one before\n");
+  std::string text = rows.empty() ? "" : "\nframes of its cycle and of the one before\n";
   for (CsvRow r : rows) {
-    fmt::print("{:>9} {:>8} bus {} {} {} {:<9} {:<12} {}\n", fromZero(r["time_s"], zero),
-               r["cycle"], r["bus"], r["direction"], r["id"], r["who"], r["service"], r["meaning"]);
+    text += fmt::format("{:>9} {:>8} bus {} {} {} {:<9} {:<12} {}\n", fromZero(r["time_s"], zero),
+                        r["cycle"], r["bus"], r["direction"], r["id"], r["who"], r["service"],
+                        r["meaning"]);
   }
+  return text;
+}
+
+std::string textOf(const RecordJson& j, const char* key) { return j.at(key).get<std::string>(); }
+
+std::string checksText(const RecordJson& j, double zero) {
+  const RecordJson& first = j.at("first_check");
+  std::string text = "first check: none fired\n";
+  if (!first.is_null()) {
+    text = fmt::format("first check: {}, cycle {}, {:.6f} s: {}\n  then {}; {}\n",
+                       textOf(first, "name"), first.at("cycle").get<std::int64_t>(),
+                       first.at("time_s").get<double>(), textOf(first, "text"),
+                       textOf(first, "reaction"), textOf(first, "page"));
+  }
+  for (std::size_t i = first.is_null() ? 0 : 1; i < j.at("checks").size(); ++i) {
+    const RecordJson& c = j["checks"][i];
+    text += fmt::format("later: {:+.4f} s, cycle {}: {}: {}\n", c.at("time_s").get<double>() - zero,
+                        c.at("cycle").get<std::int64_t>(), textOf(c, "name"), textOf(c, "text"));
+  }
+  return text;
+}
+
+std::string recordText(const std::string& folder, const RecordJson& j) {
+  const double zero = j.at("zero_s");
+  const std::int64_t middle = j.at("zero_cycle");
+  const RecordJson& first = j.at("first_check");
+  std::string text = fmt::format(
+      "{} bench, {}, program {}: {} cycles of {:.4g} ms, {} frames\nended: {} (exit code {})\n"
+      "torque: {}\n",
+      textOf(j, "runner"), textOf(j, "bench_file"), textOf(j, "revision"),
+      j.at("cycles").at("count").get<std::int64_t>(), 1e3 * j.at("cycle_s").get<double>(),
+      j.at("frames").at("count").get<std::int64_t>(), textOf(j, "ending"),
+      j.at("exit_code").get<int>(),
+      j.at("torque_off").get<bool>() ? "off, as every drive has said" : textOf(j, "last_word"));
+  text += checksText(j, zero);
+  text += cyclesText(folder, middle, zero, first.is_null() ? -1 : first.at("drive").get<int>());
+  return text + framesText(folder, middle, zero);
 }
 
 }  // namespace
 
 void showRecord(const std::string& folder, bool json) {
   const RecordJson j = readRecordJson(folder);
-  if (json) {
-    fmt::print("{}\n", jsonText(j));
-    return;
+  try {
+    // Somebody else's record may hold anything.
+    fmt::print("{}", json ? jsonText(j) + "\n" : printableText(recordText(folder, j)));
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError(
+        fmt::format("{}/record.json: not the record of a bench: {}", folder, e.what()));
   }
-  const double zero = j["zero_s"];
-  const RecordJson& first = j["first_check"];
-  const std::int64_t cycles = j["cycles"]["count"];
-  fmt::print("{} bench, {}, program {}: {} cycles of {:.4g} ms, {} frames\n",
-             j["runner"].get<std::string>(), j["bench_file"].get<std::string>(),
-             j["revision"].get<std::string>(), cycles, 1e3 * j["cycle_s"].get<double>(),
-             j["frames"]["count"].get<std::int64_t>());
-  fmt::print("ended: {} (exit code {})\ntorque: {}\n", j["ending"].get<std::string>(),
-             j["exit_code"].get<int>(),
-             j["torque_off"].get<bool>() ? "off, as every drive has said"
-                                         : j["last_word"].get<std::string>());
-  std::int64_t middle = 0;
-  if (first.is_null()) {
-    fmt::print("first check: none fired\n");
-    middle = cycles == 0 ? 0 : std::llround(zero / j["cycle_s"].get<double>());
-  } else {
-    middle = first["cycle"];
-    fmt::print("first check: {}, cycle {}, {:.6f} s: {}\n  then {}; {}\n",
-               first["name"].get<std::string>(), middle, first["time_s"].get<double>(),
-               first["text"].get<std::string>(), first["reaction"].get<std::string>(),
-               first["page"].get<std::string>());
-  }
-  for (std::size_t i = first.is_null() ? 0 : 1; i < j["checks"].size(); ++i) {
-    const RecordJson& c = j["checks"][i];
-    fmt::print("later: {:+.4f} s, cycle {}: {}: {}\n", c["time_s"].get<double>() - zero,
-               c["cycle"].get<std::int64_t>(), c["name"].get<std::string>(),
-               c["text"].get<std::string>());
-  }
-  printCycles(folder, middle, zero, first.is_null() ? -1 : first["drive"].get<int>());
-  printFrames(folder, middle, zero);
 }
 
 }  // namespace ballbot

@@ -4,6 +4,8 @@
 #include <chrono>
 
 #include <fcntl.h>
+#include <pthread.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include "hil/deadline_schedule.hpp"
@@ -41,6 +43,12 @@ const KernelFloor::Result& KernelFloor::finish() noexcept {
 }
 
 void KernelFloor::run(FloorSettings settings) noexcept {
+  if (settings.core >= 0) {
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(static_cast<std::size_t>(settings.core), &one);
+    ::pthread_setaffinity_np(::pthread_self(), sizeof one, &one);
+  }
   const int awake = settings.hold_cpu_awake ? holdCpuAwake() : -1;
   result_.held_awake = awake >= 0;
   if (settings.realtime) result_.grant = becomeRealtime(settings.priority);

@@ -14,6 +14,7 @@ struct FloorSettings {
   int priority = 80;                   ///< SCHED_FIFO, as the loop's
   std::int64_t period_ns = 1'000'000;  ///< of its wake-ups
   bool realtime = true;                ///< false: an ordinary thread, memory not locked
+  int core = -1;                       ///< pinned to it; -1: wherever the kernel puts it
   bool hold_cpu_awake = false;         ///< holds /dev/cpu_dma_latency at 0 meanwhile
 };
 

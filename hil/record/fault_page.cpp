@@ -19,13 +19,6 @@ constexpr std::int64_t kFramesBefore = 3, kFramesAfter = 2;  // cycles
 
 std::string secondsText(double t) { return fmt::format("{:+.4f}", t); }
 
-/// The cycle that the page is about.
-std::int64_t middleCycle(const FaultRecord& record) {
-  if (record.hasFault()) return record.recorder.first().cycle;
-  const auto& cycles = record.recorder.cycles();
-  return cycles.empty() ? 0 : cycles[cycles.size() - 1].cycle;
-}
-
 ReportTable checksTable(const FaultRecord& record) {
   ReportTable table;
   table.title = "Which check fired first, and what followed";
@@ -50,7 +43,7 @@ ReportTable checksTable(const FaultRecord& record) {
 }
 
 ReportTable framesTable(const FaultRecord& record) {
-  const std::int64_t middle = middleCycle(record);
+  const std::int64_t middle = record.zeroCycle();
   ReportTable table;
   table.title = "Frames on the buses";
   table.caption = fmt::format(
@@ -90,7 +83,7 @@ std::vector<ReportPhase> marks(const FaultRecord& record) {
 void fillHeader(ReportData& page, const FaultRecord& record) {
   page.passed = !record.hasFault() && record.facts.exit_code == 0;
   page.subtitle = fmt::format("{} bench, cycle {} of {:.4g} ms", record.facts.runner,
-                              middleCycle(record), 1e3 * record.config().cycleSeconds());
+                              record.zeroCycle(), 1e3 * record.config().cycleSeconds());
   if (record.hasFault()) {
     const Check& check = checkOf(record.recorder.first().finding.fault);
     page.title = "Stopped: " + record.bench.faultText();
@@ -121,7 +114,8 @@ void fillManifest(ReportData& page, const FaultRecord& record) {
       {"ended", f.ending},
       {"exit code", std::to_string(f.exit_code)},
       {"bus time of 0 s", fmt::format("{:.6f} s", 1e-9 * static_cast<double>(record.zeroNs()))},
-      {"digest of the configuration", f.config_digest},
+      {"digest of the bench file", f.bench_digest},
+      {"digest of the scenario", f.config_digest},
       {"program", f.version + ", " + f.revision}};
   if (!record.bench.lastWord().empty()) {
     page.manifest.push_back({"last word", record.bench.lastWord()});

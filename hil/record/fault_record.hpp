@@ -15,7 +15,8 @@ struct RunFacts {
   std::vector<std::string> overrides;
   std::string runner;  ///< "stepped", "real time"
   std::string version, revision;
-  std::string config_digest;  ///< of the configuration that bench and controller agree on
+  std::string bench_digest;   ///< of the bench file with what was changed of it
+  std::string config_digest;  ///< of the scenario that bench and controller agree on
   std::string ending;         ///< why the run ended, in words
   int exit_code = 0;
   std::int64_t epoch_offset_ns =
@@ -35,6 +36,12 @@ struct FaultRecord {
     if (hasFault()) return recorder.first().time_ns;
     const auto& cycles = recorder.cycles();
     return cycles.empty() ? 0 : cycles[cycles.size() - 1].time_ns;
+  }
+  /// The cycle of it.
+  std::int64_t zeroCycle() const {
+    if (hasFault()) return recorder.first().cycle;
+    const auto& cycles = recorder.cycles();
+    return cycles.empty() ? 0 : cycles[cycles.size() - 1].cycle;
   }
   /// Seconds from there.
   double seconds(std::int64_t time_ns) const {

@@ -57,11 +57,13 @@ Json recordJson(const FaultRecord& record) {
   out["torque_off"] = record.bench.torqueIsOff();
   out["last_word"] = record.bench.lastWord();
   out["zero_s"] = 1e-9 * static_cast<double>(record.zeroNs());
+  out["zero_cycle"] = record.zeroCycle();
   out["epoch_offset_s"] = 1e-9 * static_cast<double>(facts.epoch_offset_ns);
   out["bench_file"] = facts.bench_file;
   out["overrides"] = facts.overrides;
   out["runner"] = facts.runner;
   out["cycle_s"] = record.config().cycleSeconds();
+  out["bench_digest"] = facts.bench_digest;
   out["config_digest"] = facts.config_digest;
   out["version"] = facts.version;
   out["revision"] = facts.revision;

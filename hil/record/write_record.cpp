@@ -90,6 +90,14 @@ int writeAsc(const FaultRecord& record, const std::string& path) {
   return file.close();
 }
 
+/// A cell of a CSV table; in quotes where it holds what would end one.
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
 int writeDecoded(const FaultRecord& record, const std::string& path) {
   LineFile file(path);
   file.add("time_s,cycle,bus,direction,id,node,who,service,meaning\n");
@@ -97,9 +105,10 @@ int writeDecoded(const FaultRecord& record, const std::string& path) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const RecordedFrame& f = frames[i];
     const FrameWords w = wordsOf(f, record.config());
-    file.add(fmt::format(
-        "{:.6f},{},{},{},{:03X},{},{},{},\"{}\"\n", 1e-9 * static_cast<double>(f.time_ns), f.cycle,
-        f.bus, f.sent ? "sent" : "came", f.frame.id, w.node, w.who, w.service, w.meaning));
+    file.add(fmt::format("{:.6f},{},{},{},{:03X},{},{},{},{}\n",
+                         1e-9 * static_cast<double>(f.time_ns), f.cycle, f.bus,
+                         f.sent ? "sent" : "came", f.frame.id, w.node, cell(w.who), w.service,
+                         cell(w.meaning)));
   }
   return file.close();
 }

@@ -13,6 +13,7 @@
 #include "hil/record/record_json.hpp"
 #include "hil/record/troubleshooting_pages.hpp"
 #include "hil/record/write_record.hpp"
+#include "hil/rehearsal/wire_faults.hpp"
 #include "tests/hil/support/rehearsed_record.hpp"
 
 namespace ballbot {
@@ -139,6 +140,42 @@ TEST(FaultPage, OfAGoodRunSaysThatNothingFired) {
   EXPECT_TRUE(page.passed);
   EXPECT_EQ(page.title, "No check fired");
   EXPECT_TRUE(page.phases.empty());
+}
+
+// Drives that ignore all they are told: the record is written all the same, and says so first.
+TEST_F(RecordFolder, OfADriveThatDidNotGoDownSaysThatTorqueMayBeOn) {
+  RehearsedRecord run(RunnerKind::kStepped, [](Rehearsal& r) {
+    changeToDrives(r, 0, rpdoOf(1, 1), put(0, 2, 0x0F));
+    r.wire(0).onWayToDrives([](const CanFrame& f, std::vector<CanFrame>& out) {
+      if (f.id != 0 && f.id != 0x602) out.push_back(f);  // no NMT, no questions
+    });
+    r.interrupt();
+  });
+  const auto json = recordJson(run.record());
+  EXPECT_EQ(json["torque_off"], false);
+  EXPECT_EQ(json["exit_code"], 5);
+  EXPECT_THAT(json["last_word"].get<std::string>(), HasSubstr("node 2 (wheel 2, bus 0)"));
+  const ReportData page = faultPage(run.record());
+  bool said = false;
+  for (const ReportFact& fact : page.headline) said = said || fact.text == "MAY BE ON";
+  EXPECT_TRUE(said);
+  EXPECT_TRUE(writeRecord(run.record(), path).troubles.empty());
+}
+
+// Nothing but the frames of a set-up that failed: no cycle, no check.
+TEST_F(RecordFolder, OfASetUpThatFailedHasItsFrames) {
+  BenchConfig config = Rehearsal::defaultConfig();
+  config.drives[2].scaling.torque_reference *= 2;
+  Rehearsal rehearsal(config, RunnerKind::kStepped);
+  EXPECT_FALSE(rehearsal.engage());
+  rehearsal.finish();
+  const FaultRecord record{rehearsal.bench(), rehearsal.recorder(), {}};
+  EXPECT_GT(record.recorder.frames().size(), 0U);
+  EXPECT_TRUE(record.recorder.cycles().empty());
+  const WrittenRecord written = writeRecord(record, path);
+  EXPECT_TRUE(written.troubles.empty()) << written.troubles.front();
+  EXPECT_THAT(contents(written.folder + "/decoded.csv"),
+              HasSubstr("wheel 3,SDO answer,6076:00 rated torque in mNm "));
 }
 
 TEST(FaultPage, EveryCheckHasItsPageBuiltIn) {

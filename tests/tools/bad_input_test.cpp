@@ -155,5 +155,15 @@ TEST(Doctor, SaysWhatItFoundAsJson) {
   }
 }
 
+TEST(Doctor, MeasuresWhatMakesARealTimeLoopLate) {
+  const Finished late = runBallbot({"doctor", "--real-time", "--seconds", "0.05", "--json"});
+  const auto rows = nlohmann::json::parse(late.out);
+  EXPECT_EQ(late.exit_code, rows["ready"].get<bool>() ? 0 : 1) << late.err;
+  EXPECT_EQ(rows["checks"].size(), 11U);
+  for (const auto& row : rows["checks"]) EXPECT_NE(row["worth"], "") << row["name"];
+  EXPECT_GT(rows["floor"]["ordinary"]["count"].get<int>(), 0);
+  EXPECT_EQ(runBallbot({"doctor", "--real-time", "--core", "4095"}).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace ballbot

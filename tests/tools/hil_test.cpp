@@ -109,6 +109,25 @@ TEST(BenchPrograms, AFaultOfADriveEndsTheRunWithItsReason) {
   const Finished none = runBallbot({"hil", "--show-record", folder / "run"});
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_THAT(none.err, HasSubstr("record.json: cannot be read; give the folder of a record"));
+  std::ofstream(record + "/record.json") << "{\"format\": 1, \"zero_s\": \"soon\"}";
+  const Finished damaged = runBallbot({"hil", "--show-record", record});
+  EXPECT_EQ(damaged.exit_code, 2);
+  EXPECT_THAT(damaged.err, HasSubstr("not the record of a bench"));
+}
+
+// What a full disk does not take is said; the fault's exit code stays.
+TEST(BenchPrograms, AFullDiskLosesNothingButTheRecord) {
+  Drives drives({"--set",
+                 "emulator.faults=[{at_cycle: 150, kind: emergency, drive: 2, value: 17168}]",
+                 "--set", "emulator.rig={blocked: true}"});
+  const TemporaryFolder folder;
+  constexpr long kSmall = 8192;
+  Program identify(drives.with({"identify", kBench, "--records", folder / "records"}), kSmall);
+  const Finished f = identify.finish();
+  EXPECT_EQ(f.exit_code, 3) << f.err;
+  EXPECT_THAT(f.err, HasSubstr("RECORD INCOMPLETE: "));
+  EXPECT_THAT(f.err, HasSubstr("fault.html: not whole: File too large"));
+  EXPECT_FALSE(drives.finish()["torque_on"]);
 }
 
 // A good run leaves a record where one is wanted, and only there.
@@ -205,6 +224,11 @@ TEST(BenchPrograms, RealTimeRunsOrSaysWhyNotAndStopsWithTheDrivesOff) {
     EXPECT_EQ(report["bench"]["state"], "disabled");
     EXPECT_GT(report["realtime"]["cycles"], 600) << "three records of 200 cycles";
     EXPECT_FALSE(report["realtime"]["granted"].get<std::string>().empty());
+    const Json& latency = report["realtime"]["latency"];
+    EXPECT_EQ(latency["own_loop"]["whole"]["count"], report["realtime"]["cycles"]);
+    EXPECT_EQ(latency["drives"].size(), 7U);
+    EXPECT_GT(latency["buses"][1]["answers"]["count"], 0);
+    EXPECT_EQ(latency["buses"][1]["has_wire"], false) << "a pseudo terminal";
   } else {
     EXPECT_EQ(f.exit_code, 3) << f.err;
     EXPECT_THAT(f.err, ::testing::AnyOf(HasSubstr("bench: stopped: "), HasSubstr("no drive of"),
