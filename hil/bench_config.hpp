@@ -63,6 +63,7 @@ struct DriveConfig {
 struct ImuConfig {
   int bus = 0, node = 7;
   NamedDataSheet data_sheet;
+  int period_cycles = 1;              ///< from sample to sample, where it is slower than the bus
   double accel_resolution = 4.79e-3;  ///< [m/s^2] per count
   double gyro_resolution = 1.065e-3;  ///< [rad/s] per count
 };
@@ -122,6 +123,8 @@ struct BenchConfig {
   std::string scenario_path;
   std::vector<std::string> overrides;  ///< of the scenario, "path=value"
 
+  /// Whether all buses are CAN FD; either all are, or none.
+  bool flexible() const { return !buses.empty() && buses[0].settings.flexible(); }
   double cycleSeconds() const { return toSeconds(cycle); }
   int cyclesOf(int ms) const;  ///< rounded up
 };

@@ -5,7 +5,7 @@
 namespace ballbot {
 namespace {
 
-constexpr std::uint8_t kImuPdos = 2, kAllImuPdos = 3;
+// The IMU's frames: acceleration and counter, rates; one after the other in CAN FD's only one.
 constexpr std::uint8_t kAccelBytes = 8, kGyroBytes = 6;
 
 /// Number of the TPDO a frame is for `node`, or -1.
@@ -20,10 +20,15 @@ int tpdoOf(const CanFrame& f, int node) noexcept {
 }  // namespace
 
 BenchMaster::BenchMaster(const BenchConfig& config)
-    : config_(config), outbox_(config.buses.size()) {
+    : config_(config),
+      all_imu_pdos_(config.flexible() ? 0b01 : 0b11),
+      outbox_(config.buses.size()) {
   const int sdo = config.cyclesOf(config.sdo_timeout_ms);
   for (const DriveConfig& d : config.drives) {
     links_.emplace_back(d.node, driveSetup(config, d), sdo, config.safety.heartbeat_cycles);
+  }
+  for (std::size_t i = 0; i < outbox_.size(); ++i) {
+    outbox_[i].setFlexible(config.buses[i].settings.flexible());
   }
   links_.emplace_back(config.imu.node, imuSetup(config), sdo, config.safety.heartbeat_cycles);
   status_ = findInput({0x6041, 0});
@@ -127,7 +132,7 @@ void BenchMaster::readPdo(int i, int pdo, const CanFrame& frame) noexcept {
     return;
   }
   if (static_cast<std::size_t>(pdo) >= config_.inputs.size() ||
-      frame.size != config_.inputs[static_cast<std::size_t>(pdo)].bytes()) {
+      frame.size != config_.inputs[static_cast<std::size_t>(pdo)].frameBytes()) {
     ++bad_pdos_;  // counts as missing
     return;
   }
@@ -147,22 +152,30 @@ void BenchMaster::readPdo(int i, int pdo, const CanFrame& frame) noexcept {
 }
 
 void BenchMaster::readImu(int pdo, const CanFrame& frame) noexcept {
-  if (!running_ || pdo >= kImuPdos) return;
+  const bool whole = config_.flexible();
+  if (!running_ || pdo >= (whole ? 1 : 2)) return;
   if (!collecting_) {
     ++late_pdos_;
     return;
   }
-  if (frame.size != (pdo == 0 ? kAccelBytes : kGyroBytes)) {
+  const std::uint8_t expected = pdo == 1 ? kGyroBytes
+                                : whole  ? kFlexibleSizes[flexibleLengthCode(kAccelBytes + kGyroBytes)]
+                                         : kAccelBytes;
+  if (frame.size != expected) {
     ++bad_pdos_;
     return;
   }
-  const double unit = pdo == 0 ? config_.imu.accel_resolution : config_.imu.gyro_resolution;
-  std::array<double, 3>& axes = pdo == 0 ? sample_.accel : sample_.gyro;
-  for (std::size_t i = 0; i < 3; ++i) {
-    axes[i] = static_cast<double>(getSigned(&frame.data[2 * i], 2)) * unit;
-  }
+  const auto readAxes = [&](std::size_t at, double unit, std::array<double, 3>& axes) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      axes[i] = static_cast<double>(getSigned(&frame.data[at + 2 * i], 2)) * unit;
+    }
+  };
   if (pdo == 0) {
+    readAxes(0, config_.imu.accel_resolution, sample_.accel);
     imu_pending_counter_ = static_cast<std::uint16_t>(getLittleEndian(&frame.data[6], 2));
+  }
+  if (pdo == 1 || whole) {
+    readAxes(whole ? kAccelBytes : 0, config_.imu.gyro_resolution, sample_.gyro);
   }
   imu_seen_ = static_cast<std::uint8_t>(imu_seen_ | 1U << pdo);
 }
@@ -176,7 +189,7 @@ bool BenchMaster::isAwaited() const noexcept {
   for (const std::uint8_t seen : pdos_seen_) {
     if (seen != all) return true;
   }
-  return imu_seen_ != kAllImuPdos;
+  return imu_seen_ != all_imu_pdos_;
 }
 
 void BenchMaster::endCycle() noexcept {
@@ -198,7 +211,7 @@ void BenchMaster::endCycle() noexcept {
   }
   // A counter that stands still is an IMU that hangs, whatever it goes on sending.
   const auto grown = static_cast<std::uint16_t>(imu_pending_counter_ - imu_counter_);
-  if (imu_seen_ == kAllImuPdos && grown != 0) {
+  if (imu_seen_ == all_imu_pdos_ && grown != 0) {
     sample_.imu_count += sample_.imu_count == 0 ? 1 : grown;
     sample_.imu_cycle = cycle_;
     imu_counter_ = imu_pending_counter_;
@@ -206,7 +219,7 @@ void BenchMaster::endCycle() noexcept {
   } else {
     ++imu_stale_;
   }
-  imu_misses_.add(imu_stale_ != 0);
+  imu_misses_.add(imu_stale_ >= config_.imu.period_cycles);
 }
 
 void BenchMaster::setGoal(DriveGoal goal) noexcept {
@@ -252,7 +265,7 @@ void BenchMaster::writeOutputs(const BenchCommand& command) noexcept {
       const PdoMapping& map = config_.outputs[p];
       CanFrame frame;
       frame.id = kCobRpdo[p] + static_cast<std::uint32_t>(config.node);
-      frame.size = map.bytes();
+      frame.size = map.frameBytes();
       const auto put = [&](std::uint16_t index, std::int64_t value) {
         if (const PdoField field = map.find({index, 0})) field.put(frame, value);
       };

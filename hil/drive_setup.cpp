@@ -146,8 +146,24 @@ std::vector<SetupStep> imuSetup(const BenchConfig& bench) {
             "accelerometer resolution in 1e-9 m/s^2");
   s.require(Kind::kExpect, 0x2004, 2, std::llround(1e9 * bench.imu.gyro_resolution),
             "gyro resolution in 1e-9 rad/s");
+  // As it is delivered it sends two frames; CAN FD has room for all in one.
+  if (bench.flexible()) {
+    const PdoMapping all = imuMapping();
+    setUpPdo(s, true, 0, bench.imu.node, &all, kEverySync, 0);
+    setUpPdo(s, true, 1, bench.imu.node, nullptr, kEverySync, 0);
+  }
   setUpHeartbeats(s, bench);
   return s.steps;
+}
+
+PdoMapping imuMapping() {
+  return PdoMapping({{{0x2001, 1}, 16},
+                     {{0x2001, 2}, 16},
+                     {{0x2001, 3}, 16},
+                     {{0x2003, 0}, 16},
+                     {{0x2002, 1}, 16},
+                     {{0x2002, 2}, 16},
+                     {{0x2002, 3}, 16}});
 }
 
 }  // namespace ballbot

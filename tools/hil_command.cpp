@@ -10,6 +10,7 @@
 #include "cosim/serve.hpp"
 #include "experiment/plant_link.hpp"
 #include "hil/bench_check.hpp"
+#include "hil/bus_budget.hpp"
 #include "hil/data_sheet_check.hpp"
 #include "hil/hil_participant.hpp"
 #include "hil/open_can_bus.hpp"
@@ -31,7 +32,7 @@ struct HilArguments {
   std::vector<std::string> overrides;
   std::string lcm_url = sharedLcmAddress().url, channel = sharedLcmAddress().channel;
   std::string record;
-  bool faults = false, checks = false, check = false, keep_serving = false, json = false;
+  bool faults = false, checks = false, check = false, budget = false, keep_serving = false, json = false;
   int random = 0;
   std::uint64_t seed = 1;
 };
@@ -113,6 +114,24 @@ ExitCode showBench(const HilArguments& a) {
   return allGood(nodes) && sheets.empty() ? ExitCode::kPassed : ExitCode::kRequirementMissed;
 }
 
+ExitCode showBudget(const HilArguments& a) {
+  const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  int bus = 0;
+  for (const BusBudget& b : busBudget(config)) {
+    list.push_back({{"frames_per_cycle", b.frames_per_cycle},
+                    {"nominal", b.nominal},
+                    {"worst_stuffing", b.worst}});
+    if (a.json) continue;
+    fmt::print("bus {}: {} frames in every cycle of {:.6g} ms: load {:.0f} %, {:.0f} % with the most "
+               "stuffing\n",
+               bus++, b.frames_per_cycle, 1e3 * config.cycleSeconds(), 100 * b.nominal,
+               100 * b.worst);
+  }
+  if (a.json) fmt::print("{}\n", jsonText(nlohmann::ordered_json{{"buses", list}}));
+  return ExitCode::kPassed;
+}
+
 /// How serving ended, an exception included: whatever it was, the bench is brought down and
 /// reported first.
 struct Ending {
@@ -163,6 +182,7 @@ ExitCode serveBench(const HilArguments& a) {
   const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
   const std::uint64_t digest = configDigest64(loadBenchScenario(config, a.config));
   requireDataSheets(config);
+  requireRoom(config);
   requireFreeAddress({a.lcm_url, a.channel});
   const OpenBuses buses(config);
   fmt::print(stderr,
@@ -207,6 +227,7 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
   command->add_option("--record", a->record, "Write every cycle to this CSV file (real time only)");
   command->add_flag("--check", a->check,
                     "Ask every node what it is, change nothing, print a table and what disagrees");
+  command->add_flag("--budget", a->budget, "Print how full the buses will be; no bus is opened");
   command->add_flag("--faults", a->faults,
                     "Try every fault on emulated drives in this process and print the table");
   command
@@ -237,6 +258,10 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
       return;
     }
     if (a->config.empty()) throw InputError("hil: give a bench file, e.g. configs/hil/bench.yaml");
+    if (a->budget) {
+      result = showBudget(*a);
+      return;
+    }
     result = a->check ? showBench(*a) : serveBench(*a);
   });
 }

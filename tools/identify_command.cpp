@@ -10,6 +10,7 @@
 #include "core/angle.hpp"
 #include "experiment/scenario.hpp"
 #include "experiment/text_file.hpp"
+#include "hil/bus_budget.hpp"
 #include "hil/data_sheet_check.hpp"
 #include "hil/identify_drive.hpp"
 #include "hil/identify_report.hpp"
@@ -100,6 +101,7 @@ ExitCode identifyOnBench(IdentifyArguments a) {
   const BenchConfig config =
       forIdentification(readBenchConfig(loadBenchTree(a.config, a.overrides)));
   requireDataSheets(config);
+  requireRoom(config);
   a.plan.drive = a.drive - 1;
   const ScenarioToChange scenario = scenarioToChange(a, config);
   std::vector<std::unique_ptr<CanBus>> owned;

@@ -11,7 +11,16 @@ using namespace sdo_abort;
 
 constexpr std::int64_t kInvalidBit = std::int64_t{1} << 31, kNoRtrBit = std::int64_t{1} << 30,
                        kExtendedBit = std::int64_t{1} << 29;
-constexpr int kMaxMapped = 8, kMaxBits = 64;
+constexpr int kMaxMapped = 8, kMaxBits = 64, kMaxFlexibleBits = 512;
+
+/// The shortest CAN FD frame that holds so many bytes.
+int flexibleLength(int bytes) {
+  for (const int length : {8, 12, 16, 20, 24, 32, 48, 64}) {
+    if (bytes <= 8) return bytes;
+    if (length >= bytes) return length;
+  }
+  return 64;
+}
 
 std::uint16_t communicationIndex(bool transmit, int number) {
   return static_cast<std::uint16_t>((transmit ? 0x1800 : 0x1400) + number);
@@ -86,7 +95,7 @@ int PdoRules::length(bool transmit, int number) const {
   for (int i = 1; i <= dictionary_.value(map); ++i) {
     bits += static_cast<int>(dictionary_.value(map, static_cast<std::uint8_t>(i)) & 0xFF);
   }
-  return bits / 8;
+  return flexible_ ? flexibleLength(bits / 8) : bits / 8;
 }
 
 std::uint32_t PdoRules::judge(std::uint16_t index, std::uint8_t sub, std::int64_t value) const {
@@ -146,7 +155,7 @@ std::uint32_t PdoRules::judgeMapping(bool transmit, int number, std::uint8_t sub
     if (code == 0) return kNoObject;
     bits += static_cast<int>(code & 0xFF);
   }
-  return bits > kMaxBits ? kPdoLength : kNone;
+  return bits > (flexible_ ? kMaxFlexibleBits : kMaxBits) ? kPdoLength : kNone;
 }
 
 std::uint32_t PdoRules::judgeEntry(bool transmit, std::uint32_t code) const {
@@ -173,6 +182,7 @@ CanFrame PdoRules::pack(int number) const {
       frame.data[frame.size++] = static_cast<std::uint8_t>(value & 0xFF);
     }
   }
+  frame.size = static_cast<std::uint8_t>(length(true, number));
   return frame;
 }
 

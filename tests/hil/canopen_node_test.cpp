@@ -238,6 +238,34 @@ TEST_F(Node, RemoteAndExtendedFramesMeanNothingToIt) {
   EXPECT_TRUE(drive_.operational());
 }
 
+TEST(CanopenNode, MapsSixtyFourBytesOnCanFdAlone) {
+  for (const bool flexible : {false, true}) {
+    DriveNode drive({});
+    drive.setFlexible(flexible);
+    drive.powerOn();
+    SdoDialogue talk(drive);
+    EXPECT_EQ(talk.write(0x1800, 1, 0xC0000181, 4), 0U);
+    EXPECT_EQ(talk.write(0x1A00, 0, 0, 1), 0U);
+    const std::int64_t codes[] = {0x60410010, 0x60770010, 0x60640020, 0x606C0020, 0x60E40120};
+    std::uint8_t sub = 0;
+    for (const std::int64_t code : codes) EXPECT_EQ(talk.write(0x1A00, ++sub, code, 4), 0U);
+    EXPECT_EQ(talk.write(0x1A00, 0, sub, 1), flexible ? 0U : 0x06040042U) << "16 bytes";
+    if (!flexible) continue;
+    EXPECT_EQ(talk.write(0x1A00, 0, 0, 1), 0U);
+    EXPECT_EQ(talk.write(0x1A00, 6, 0x60740010, 4), 0U);
+    EXPECT_EQ(talk.write(0x1A00, 0, 6, 1), 0U);
+    EXPECT_EQ(talk.write(0x1800, 1, 0x40000181, 4), 0U);
+    drive.forceNmt(0x01);
+    drive.outbox().clear();
+    drive.onSync();
+    ASSERT_FALSE(drive.outbox().empty());
+    const CanFrame frame = drive.outbox().front();
+    EXPECT_EQ(frame.size, 20) << "18 bytes, and two that fill it up";
+    EXPECT_TRUE(isValid(frame));
+    EXPECT_TRUE(frame.flexible && frame.fast);
+  }
+}
+
 TEST(CanopenNode, AnswersSdosLateWhereItIsToldTo) {
   EmulatedDriveParameters p;
   p.sdo_delay_ns = 150'000'000;
