@@ -1,5 +1,6 @@
 #include "hil/bench_config.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -171,6 +172,23 @@ void requireMapped(const BenchConfig& c, const std::string& where) {
   }
 }
 
+void requireSharable(const BenchConfig& c, std::size_t longest, const std::string& where) {
+  if (!c.shared_outputs) return;
+  if (c.outputs.size() != 1) {
+    throw InputError(fmt::format("{} needs all outputs of a drive in one RPDO, there are {}", where,
+                                 c.outputs.size()));
+  }
+  for (std::size_t bus = 0; bus < c.buses.size(); ++bus) {
+    const auto drives = std::count_if(c.drives.begin(), c.drives.end(), [&](const DriveConfig& d) {
+      return d.bus == static_cast<int>(bus);
+    });
+    const std::size_t bytes = static_cast<std::size_t>(drives) * c.outputs[0].bytes();
+    if (bytes <= longest) continue;
+    throw InputError(fmt::format("{} would need {} bytes in a frame on bus {}, at most {} fit", where,
+                                 bytes, bus, longest));
+  }
+}
+
 void readDoubts(ConfigReader& in, SafetyConfig& s) {
   s.position_jump = in.numberOr("position_jump_rad", s.position_jump, {1e-4, 10});
   s.spring_mismatch = in.numberOr("spring_mismatch_rad", s.spring_mismatch, {1e-5, 10});
@@ -303,6 +321,8 @@ BenchConfig readBenchConfig(const ConfigNode& tree) {
                    : Defaults{{"60410010", "60770010", "60640020"},
                               {"606C0020", "60E40120"},
                               {"60740010"}});
+  c.shared_outputs = in.booleanOr("shared_outputs", false);
+  requireSharable(c, longest, in.at("shared_outputs"));
   requireMapped(c, tree.where().source + ": ");
   if (in.has("safety")) readSafety(in.child("safety"), c.safety, c);
   if (in.has("realtime")) readRealtime(in.child("realtime"), c);

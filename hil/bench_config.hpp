@@ -114,6 +114,7 @@ struct BenchConfig {
   int boot_timeout_ms = 2000;  ///< from a reset to the boot-up message
   int output_deadline_ms = 15;      ///< RPDO event timer in the drives; 0: none
   std::vector<PdoMapping> outputs;  ///< RPDO1..
+  bool shared_outputs = false;      ///< one RPDO for all drives of a bus, see hil/shared_outputs.hpp
   std::vector<PdoMapping> inputs;   ///< TPDO1..
   std::vector<BusConfig> buses;
   std::array<DriveConfig, kDriveCount> drives;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hil/shared_outputs.hpp"
+
 namespace ballbot {
 namespace {
 
@@ -37,6 +39,14 @@ BenchMaster::BenchMaster(const BenchConfig& config)
   velocity_ = findInput({0x606C, 0});
   motor_position_ = findInput({0x60E4, 1});
   demand_ = findInput({0x6074, 0});
+  if (config.shared_outputs) {
+    for (int bus = 0; bus < busCount(); ++bus) {
+      shared_frames_.push_back(sharedFrame(config, bus));
+    }
+    for (std::size_t i = 0; i < kDriveCount; ++i) {
+      shared_at_[i] = sharedOffset(config, config.drives[i]);
+    }
+  }
   heartbeat_period_ = std::max(
       1, static_cast<int>(std::chrono::milliseconds(config.master_heartbeat_ms) / config.cycle));
 }
@@ -263,19 +273,27 @@ void BenchMaster::writeOutputs(const BenchCommand& command) noexcept {
     const double velocity = enabled ? command.velocity[i] : 0;
     for (std::size_t p = 0; p < config_.outputs.size(); ++p) {
       const PdoMapping& map = config_.outputs[p];
-      CanFrame frame;
-      frame.id = kCobRpdo[p] + static_cast<std::uint32_t>(config.node);
-      frame.size = map.frameBytes();
+      CanFrame own;
+      own.id = kCobRpdo[p] + static_cast<std::uint32_t>(config.node);
+      own.size = map.frameBytes();
+      const bool shared = config_.shared_outputs;
+      CanFrame& frame = shared ? shared_frames_[static_cast<std::size_t>(config.bus)] : own;
       const auto put = [&](std::uint16_t index, std::int64_t value) {
-        if (const PdoField field = map.find({index, 0})) field.put(frame, value);
+        PdoField field = map.find({index, 0});
+        if (!field) return;
+        field.offset = static_cast<std::uint8_t>(field.offset + shared_at_[i]);
+        field.put(frame, value);
       };
       put(0x6040, controlword);
       put(0x6071, d.sent_torque);
       put(0x60B2, d.sent_torque);
       put(0x607A, config.scaling.angleCounts(angle));
       put(0x60B1, config.scaling.velocityCounts(velocity));
-      outbox(config.bus).push(frame);
+      if (!shared) outbox(config.bus).push(frame);
     }
+  }
+  for (std::size_t bus = 0; bus < shared_frames_.size(); ++bus) {
+    if (shared_frames_[bus].size > 0) outbox_[bus].push(shared_frames_[bus]);
   }
 }
 

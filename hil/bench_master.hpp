@@ -111,6 +111,8 @@ class BenchMaster {
   MissWindow imu_misses_;
   std::uint16_t imu_counter_ = 0;
   std::uint16_t imu_pending_counter_ = 0;
+  std::vector<CanFrame> shared_frames_;                ///< by bus, of shared outputs
+  std::array<std::uint8_t, kDriveCount> shared_at_{};  ///< where a drive's outputs begin in them
   std::vector<FrameQueue> outbox_;
   BenchSample sample_;
   std::int64_t cycle_ = 0;

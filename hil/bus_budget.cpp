@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "hil/drive_setup.hpp"
 #include "hil/frame_bits.hpp"
+#include "hil/shared_outputs.hpp"
 
 namespace ballbot {
 namespace {
@@ -47,7 +48,9 @@ void addNode(BusTime& time, const BenchConfig& config) {
 }
 
 void addDrive(BusTime& time, const BenchConfig& config) {
-  for (const PdoMapping& map : config.outputs) time.inEveryCycle(map.frameBytes());
+  if (!config.shared_outputs) {
+    for (const PdoMapping& map : config.outputs) time.inEveryCycle(map.frameBytes());
+  }
   for (const PdoMapping& map : config.inputs) time.inEveryCycle(map.frameBytes());
   addNode(time, config);
   if (config.safety.read_back_cycles == 0) return;
@@ -77,6 +80,10 @@ std::vector<BusBudget> busBudget(const BenchConfig& config) {
       if (drive.bus == static_cast<int>(b)) addDrive(time, config);
     }
     if (config.imu.bus == static_cast<int>(b)) addImu(time, config);
+    if (config.shared_outputs) {
+      const CanFrame frame = sharedFrame(config, static_cast<int>(b));
+      if (frame.size > 0) time.inEveryCycle(frame.size);
+    }
     out.push_back(time.budget());
   }
   return out;

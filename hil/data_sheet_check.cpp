@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "hil/drive_setup.hpp"
+#include "hil/shared_outputs.hpp"
 
 namespace ballbot {
 namespace {
@@ -136,6 +137,12 @@ class SheetCheck {
                                static_cast<std::uint8_t>(code >> 8 & 0xFF)};
     const int bits = static_cast<int>(code & 0xFF);
     const char* direction = transmit ? "TPDO" : "RPDO";
+    if (isDummy(object)) {
+      if (!transmit && sheet_.hasDummy(object.index)) return;
+      say(fmt::format("{} fills up an RPDO that drives share (shared_outputs), {} says Dummy{:04X}=0",
+                      toText(object), sheet_.file(), object.index));
+      return;
+    }
     const EdsEntry* e = lookUp(object, transmit ? "in a TPDO" : "in an RPDO");
     if (e == nullptr) return;
     if (transmit ? !e->inTransmitPdo() : !e->inReceivePdo()) {

@@ -9,7 +9,8 @@
 namespace ballbot {
 
 /// Objects 1400 to 1403 with 1600 to 1603, and 1800 to 1803 with 1A00 to 1A03 of an emulated node:
-/// what may be written when (CiA 301, 7.5.2.35 to 38), and the packing of frames.
+/// what may be written when (CiA 301, 7.5.2.35 to 38), and the packing of frames. RPDOs may skip bytes by
+/// mapping the types 0005 to 0007.
 class PdoRules {
  public:
   static constexpr int kPdoCount = 4;

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/yaml_file.hpp"
 #include "hil/bus_budget.hpp"
+#include "hil/shared_outputs.hpp"
 
 namespace ballbot {
 namespace {
@@ -39,6 +40,22 @@ TEST(BenchConfig, CanFdHasLongPdosAndClassicCanHasNot) {
               HasSubstr("must be there for both buses or for none"));
   EXPECT_THAT(refusal("bench_fd.yaml", {"buses.0.fd.data_bitrate_kbps=500"}),
               HasSubstr("data_bitrate_kbps is 500, must be between 1000 and 8000"));
+}
+
+TEST(BenchConfig, DrivesOfABusShareAnRpdoWhereItHasRoom) {
+  const BenchConfig fd = benchOf("bench_fd.yaml", {});
+  const PdoMapping second = sharedOutputs(fd, fd.drives[1]);
+  std::vector<std::uint32_t> codes;
+  for (const PdoEntry& entry : second.entries()) codes.push_back(entry.code());
+  EXPECT_EQ(codes, (std::vector<std::uint32_t>{0x00070020, 0x60400010, 0x60710010, 0x00070020}));
+  EXPECT_EQ(sharedOffset(fd, fd.drives[1]), 4);
+  EXPECT_EQ(sharedFrame(fd, 0).id, 0x201U);
+  EXPECT_EQ(sharedFrame(fd, 1).id, 0x204U);
+  EXPECT_EQ(sharedFrame(fd, 1).size, 12);
+  EXPECT_THAT(refusal("bench.yaml", {"shared_outputs=true"}),
+              HasSubstr("shared_outputs would need 12 bytes in a frame on bus 0, at most 8 fit"));
+  EXPECT_THAT(refusal("bench.yaml", {"shared_outputs=true", "drive_mode=position"}),
+              HasSubstr("shared_outputs needs all outputs of a drive in one RPDO, there are 2"));
 }
 
 TEST(BenchConfig, NamesTheKeyAndWhatItMustBe) {

@@ -266,6 +266,30 @@ TEST(CanopenNode, MapsSixtyFourBytesOnCanFdAlone) {
   }
 }
 
+TEST(CanopenNode, SkipsWhatIsAnotherNodesInASharedRpdo) {
+  DriveNode drive({});
+  drive.setFlexible(true);
+  drive.powerOn();
+  SdoDialogue talk(drive);
+  EXPECT_EQ(talk.write(0x1400, 1, 0x80000202, 4), 0U) << "off, and another identifier";
+  EXPECT_EQ(talk.write(0x1600, 0, 0, 1), 0U);
+  EXPECT_EQ(talk.write(0x1600, 1, 0x00070020, 4), 0U);
+  EXPECT_EQ(talk.write(0x1600, 2, 0x00060010, 4), 0U);
+  EXPECT_EQ(talk.write(0x1600, 3, 0x60710010, 4), 0U);
+  EXPECT_EQ(talk.write(0x1600, 4, 0x00060020, 4), 0x06040042U) << "type 6 has 16 bits";
+  EXPECT_EQ(talk.write(0x1600, 4, 0x00050008, 4), 0U);
+  EXPECT_EQ(talk.write(0x1600, 0, 4, 1), 0U);
+  EXPECT_EQ(talk.write(0x1400, 1, 0x202, 4), 0U);
+  EXPECT_EQ(talk.write(0x1801, 1, 0xC0000281, 4), 0U);
+  EXPECT_EQ(talk.write(0x1A01, 0, 0, 1), 0U);
+  EXPECT_EQ(talk.write(0x1A01, 1, 0x00070020, 4), 0x06040041U) << "there are none to send";
+  drive.forceNmt(0x01);
+  CanFrame frame{0x202, false, false, 12, {9, 9, 9, 9, 9, 9, 0x34, 0x12, 9}};
+  frame.flexible = frame.fast = true;
+  drive.onFrame(frame);
+  EXPECT_EQ(drive.dictionary().value(0x6071), 0x1234);
+}
+
 TEST(CanopenNode, AnswersSdosLateWhereItIsToldTo) {
   EmulatedDriveParameters p;
   p.sdo_delay_ns = 150'000'000;
