@@ -58,7 +58,7 @@ void Bench::observe(int skipped_cycles) noexcept {
   checkNetwork();
   checkDrives();
   checkMeasurements(1 + skipped_cycles);
-  checkImu((1 + skipped_cycles) * config_.cycleSeconds());
+  checkImu(std::max(1 + skipped_cycles, config_.imu.period_cycles) * config_.cycleSeconds());
   checkMotion();
   checkParameters();
 }
@@ -139,7 +139,7 @@ void Bench::checkMeasurements(int elapsed) noexcept {
   }
 }
 
-/// @param dt  since the cycle before [s]
+/// @param dt  since the sample before, if none is missing [s]
 void Bench::checkImu(double dt) noexcept {
   const BenchSample& s = master_.sample();
   const bool fresh = s.imu_cycle == master_.cycle();

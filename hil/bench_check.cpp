@@ -20,8 +20,11 @@ using WallClock = std::chrono::steady_clock;
 /// SDO uploads from one node over one bus. What is not given is noted in the report.
 class Reader {
  public:
-  Reader(CanBus& bus, int node, std::chrono::milliseconds patience, NodeReport& report)
-      : bus_(bus), node_(node), patience_(patience), report_(report) {}
+  Reader(CanBus& bus, int node, bool flexible, std::chrono::milliseconds patience,
+         NodeReport& report)
+      : bus_(bus), node_(node), patience_(patience), report_(report) {
+    queue_.setFlexible(flexible);
+  }
 
   std::optional<std::int64_t> number(const char* what, std::uint16_t index, std::uint8_t sub = 0) {
     if (!upload(what, {index, sub})) return std::nullopt;
@@ -197,7 +200,7 @@ std::vector<NodeReport> checkBench(const BenchConfig& config, const std::vector<
   std::vector<NodeReport> reports;
   for (const DriveConfig& drive : config.drives) {
     NodeReport report = reportOf(drive.name, drive.bus, drive.node, drive.data_sheet);
-    Reader reader(bus(drive.bus), drive.node, patience, report);
+    Reader reader(bus(drive.bus), drive.node, config.flexible(), patience, report);
     if (const auto type = readIdentity(reader, report)) {
       readDrive(reader, *type, drive, config, report);
     }
@@ -205,7 +208,7 @@ std::vector<NodeReport> checkBench(const BenchConfig& config, const std::vector<
     reports.push_back(std::move(report));
   }
   NodeReport imu = reportOf("IMU", config.imu.bus, config.imu.node, config.imu.data_sheet);
-  Reader reader(bus(imu.bus), imu.node, patience, imu);
+  Reader reader(bus(imu.bus), imu.node, config.flexible(), patience, imu);
   if (readIdentity(reader, imu)) {
     compare(imu, "accelerometer resolution [m/s^2]",
             reader.quantity("accelerometer resolution", 1e-9, 0x2004, 1),

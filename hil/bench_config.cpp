@@ -1,5 +1,6 @@
 #include "hil/bench_config.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -36,7 +37,7 @@ void readDriveValues(ConfigReader& in, DriveConfig& d) {
     try {
       d.torque_reference_object = readObjectAddress(in.text("torque_reference_object"));
     } catch (const InputError& e) {
-      throw InputError(in.at("torque_reference_object") + e.what());
+      throw InputError(in.at("torque_reference_object") + ": " + e.what());
     }
   }
   d.quick_stop_option = in.integerOr("quick_stop_option", d.quick_stop_option, {0, 8});
@@ -50,7 +51,7 @@ void readDriveValues(ConfigReader& in, DriveConfig& d) {
       in.numberOr("motor_encoder_counts_per_turn", s.motor_encoder_counts, {16, 1e9});
   s.velocity_unit = in.numberOr("velocity_unit_rad_per_s", s.velocity_unit, {1e-9, 10});
   s.sign = in.numberOr("sign", s.sign, {-1, 1});
-  if (std::abs(s.sign) != 1) throw InputError(in.at("sign") + "must be 1 or -1");
+  if (std::abs(s.sign) != 1) throw InputError(in.at("sign") + " must be 1 or -1");
   s.offset = kRadPerDeg * in.numberOr("offset_deg", s.offset / kRadPerDeg, {-3600, 3600});
   s.spring_stiffness = in.numberOr("spring_stiffness_Nm_per_rad", s.spring_stiffness, {1, 1e6});
   DriveLimits& l = d.limits;
@@ -83,7 +84,7 @@ void readDrives(ConfigReader& in, BenchConfig& c) {
   }
   std::vector<ConfigReader> list = in.list("drives");
   if (list.size() != kDriveCount) {
-    throw InputError(fmt::format("{}has {} entries, must be {}: wheels 1 to 3, arm joints 1 to 3",
+    throw InputError(fmt::format("{} has {} entries, must be {}: wheels 1 to 3, arm joints 1 to 3",
                                  in.at("drives"), list.size(), kDriveCount));
   }
   std::set<std::pair<int, int>> nodes{{c.imu.bus, c.imu.node}};
@@ -99,25 +100,30 @@ void readDrives(ConfigReader& in, BenchConfig& c) {
       drive.scaling.velocity_unit = kTwoPi / drive.scaling.encoder_counts;
     }
     if (!nodes.insert({drive.bus, drive.node}).second || drive.node == c.master_node) {
-      throw InputError(fmt::format("{}{} is taken on bus {}", d.at("node"), drive.node, drive.bus));
+      throw InputError(fmt::format("{} {} is taken on bus {}", d.at("node"), drive.node, drive.bus));
     }
     if (drive.limits.position_low >= drive.limits.position_high) {
-      throw InputError(d.at("position_low_deg") + "must be below position_high_deg");
+      throw InputError(d.at("position_low_deg") + " must be below position_high_deg");
     }
     d.finish();
     c.drives[static_cast<std::size_t>(i)] = drive;
   }
 }
 
-std::vector<PdoMapping> readMappings(ConfigReader& in, const char* key,
+std::vector<PdoMapping> readMappings(ConfigReader& in, const char* key, std::size_t longest,
                                      const std::vector<std::vector<const char*>>& defaults) {
   std::vector<PdoMapping> out;
   const ConfigNode* node = in.raw(key);
   const auto add = [&](std::vector<PdoEntry> entries) {
     try {
       out.emplace_back(std::move(entries));
+      if (out.back().bytes() > longest) {
+        throw InputError(fmt::format("a PDO of {} bytes; at most {} fit in a {} frame",
+                                     out.back().bytes(), longest,
+                                     longest > CanFrame::kMaxSize ? "CAN FD" : "classic CAN"));
+      }
     } catch (const InputError& e) {
-      throw InputError(in.at(key) + e.what());
+      throw InputError(in.at(key) + ": " + e.what());
     }
   };
   if (node == nullptr) {
@@ -140,7 +146,7 @@ std::vector<PdoMapping> readMappings(ConfigReader& in, const char* key,
     add(std::move(entries));
   }
   if (out.empty() || out.size() > 4)
-    throw InputError(in.at(key) + "must be 1 to 4 lists of objects");
+    throw InputError(in.at(key) + " must be 1 to 4 lists of objects");
   return out;
 }
 
@@ -163,6 +169,23 @@ void requireMapped(const BenchConfig& c, const std::string& where) {
     if (!mapped(c.outputs, index)) {
       throw InputError(fmt::format("{}rpdo must have object {:04X}", where, index));
     }
+  }
+}
+
+void requireSharable(const BenchConfig& c, std::size_t longest, const std::string& where) {
+  if (!c.shared_outputs) return;
+  if (c.outputs.size() != 1) {
+    throw InputError(fmt::format("{} needs all outputs of a drive in one RPDO, there are {}", where,
+                                 c.outputs.size()));
+  }
+  for (std::size_t bus = 0; bus < c.buses.size(); ++bus) {
+    const auto drives = std::count_if(c.drives.begin(), c.drives.end(), [&](const DriveConfig& d) {
+      return d.bus == static_cast<int>(bus);
+    });
+    const std::size_t bytes = static_cast<std::size_t>(drives) * c.outputs[0].bytes();
+    if (bytes <= longest) continue;
+    throw InputError(fmt::format("{} would need {} bytes in a frame on bus {}, at most {} fit", where,
+                                 bytes, bus, longest));
   }
 }
 
@@ -191,7 +214,7 @@ void readSafety(ConfigReader in, SafetyConfig& s, const BenchConfig& c) {
   s.heartbeat_cycles = cycles("heartbeat_timeout_ms", s.heartbeat_cycles);
   s.transition_cycles = cycles("transition_timeout_ms", s.transition_cycles);
   s.confirm_cycles = cycles("confirm_off_ms", s.confirm_cycles);
-  if (s.confirm_cycles < 1) throw InputError(in.at("confirm_off_ms") + "must be a cycle or more");
+  if (s.confirm_cycles < 1) throw InputError(in.at("confirm_off_ms") + " must be a cycle or more");
   s.stale_cycles = in.integerOr("stale_cycles", s.stale_cycles, {1, 100});
   s.late_cycles = in.integerOr("late_cycles", s.late_cycles, {1, 100});
   s.damping = in.numberOr("damping_Nms_per_rad", s.damping, {0, 100});
@@ -210,11 +233,22 @@ void readBuses(ConfigReader& in, BenchConfig& c) {
     CanBusSettings& s = bus.settings;
     s.bitrate_kbps = b.integerOr("bitrate_kbps", s.bitrate_kbps, {10, 1000});
     s.acknowledges = b.booleanOr("acknowledges", s.acknowledges);
+    if (b.has("fd")) {
+      ConfigReader fd = b.child("fd");
+      s.data_bitrate_kbps = fd.integer("data_bitrate_kbps", {1000, 8000});
+      fd.finish();
+      if (s.data_bitrate_kbps < s.bitrate_kbps) {
+        throw InputError(b.at("fd") + " data_bitrate_kbps must not be below bitrate_kbps");
+      }
+    }
     b.finish();
+    if (!c.buses.empty() && c.buses[0].settings.flexible() != s.flexible()) {
+      throw InputError(b.at("fd") + " must be there for both buses or for none: PDOs are the same");
+    }
     c.buses.push_back(bus);
   }
   if (c.buses.empty() || c.buses.size() > 2)
-    throw InputError(in.at("buses") + "must be one or two");
+    throw InputError(in.at("buses") + " must be one or two");
 }
 
 void readRealtime(ConfigReader in, BenchConfig& c) {
@@ -222,7 +256,7 @@ void readRealtime(ConfigReader in, BenchConfig& c) {
   c.realtime.collect = in.durationOr("collect_us", c.realtime.collect, {10, 1e5});
   c.realtime.act = in.durationOr("act_us", c.realtime.act, {10, 1e5});
   if (!(c.realtime.collect < c.realtime.act && c.realtime.act < c.cycle)) {
-    throw InputError(in.at("act_us") + "must lie between collect_us and the cycle");
+    throw InputError(in.at("act_us") + " must lie between collect_us and the cycle");
   }
   in.finish();
 }
@@ -262,12 +296,14 @@ BenchConfig readBenchConfig(const ConfigNode& tree) {
   c.sdo_timeout_ms = in.integerOr("sdo_timeout_ms", c.sdo_timeout_ms, {10, 5000});
   c.boot_timeout_ms = in.integerOr("boot_timeout_ms", c.boot_timeout_ms, {100, 60'000});
   if (c.master_timeout_ms < 2 * c.master_heartbeat_ms) {
-    throw InputError(in.at("master_timeout_ms") + "must be at least twice master_heartbeat_ms");
+    throw InputError(in.at("master_timeout_ms") + " must be at least twice master_heartbeat_ms");
   }
   readBuses(in, c);
   if (in.has("imu")) {
     ConfigReader imu = in.child("imu");
     readDataSheet(imu, c.imu.data_sheet);
+    const SimDuration period = imu.durationOr("period_us", c.cycle, {1, 1e5});
+    c.imu.period_cycles = static_cast<int>((period + c.cycle - SimDuration{1}) / c.cycle);
     c.imu.bus = imu.integerOr("bus", 0, {0, static_cast<double>(c.buses.size()) - 1});
     c.imu.node = imu.integerOr("node", c.imu.node, {1, 126});
     c.imu.accel_resolution =
@@ -278,12 +314,22 @@ BenchConfig readBenchConfig(const ConfigNode& tree) {
   }
   readDrives(in, c);
   const bool torque = c.mode == DriveMode::kTorque;
-  c.outputs = readMappings(in, "rpdo",
-                           torque ? std::vector<std::vector<const char*>>{{"60400010", "60710010"}}
-                                  : std::vector<std::vector<const char*>>{
-                                        {"60400010", "60B20010", "607A0020"}, {"60B10020"}});
+  using Defaults = std::vector<std::vector<const char*>>;
+  const std::size_t longest = c.flexible() ? CanFrame::kMaxFlexibleSize : CanFrame::kMaxSize;
+  c.outputs = readMappings(
+      in, "rpdo", longest,
+      torque         ? Defaults{{"60400010", "60710010"}}
+      : c.flexible() ? Defaults{{"60400010", "60B20010", "607A0020", "60B10020"}}
+                     : Defaults{{"60400010", "60B20010", "607A0020"}, {"60B10020"}});
   c.inputs = readMappings(
-      in, "tpdo", {{"60410010", "60770010", "60640020"}, {"606C0020", "60E40120"}, {"60740010"}});
+      in, "tpdo", longest,
+      c.flexible() ? Defaults{{"60410010", "60770010", "60640020", "606C0020", "60E40120",
+                               "60740010"}}
+                   : Defaults{{"60410010", "60770010", "60640020"},
+                              {"606C0020", "60E40120"},
+                              {"60740010"}});
+  c.shared_outputs = in.booleanOr("shared_outputs", false);
+  requireSharable(c, longest, in.at("shared_outputs"));
   requireMapped(c, tree.where().source + ": ");
   if (in.has("safety")) readSafety(in.child("safety"), c.safety, c);
   if (in.has("realtime")) readRealtime(in.child("realtime"), c);

@@ -63,6 +63,7 @@ struct DriveConfig {
 struct ImuConfig {
   int bus = 0, node = 7;
   NamedDataSheet data_sheet;
+  int period_cycles = 1;              ///< from sample to sample, where it is slower than the bus
   double accel_resolution = 4.79e-3;  ///< [m/s^2] per count
   double gyro_resolution = 1.065e-3;  ///< [rad/s] per count
 };
@@ -119,6 +120,7 @@ struct BenchConfig {
   int boot_timeout_ms = 2000;  ///< from a reset to the boot-up message
   int output_deadline_ms = 15;      ///< RPDO event timer in the drives; 0: none
   std::vector<PdoMapping> outputs;  ///< RPDO1..
+  bool shared_outputs = false;      ///< one RPDO for all drives of a bus, see hil/shared_outputs.hpp
   std::vector<PdoMapping> inputs;   ///< TPDO1..
   std::vector<BusConfig> buses;
   std::array<DriveConfig, kDriveCount> drives;
@@ -129,6 +131,8 @@ struct BenchConfig {
   std::string scenario_path;
   std::vector<std::string> overrides;  ///< of the scenario, "path=value"
 
+  /// Whether all buses are CAN FD; either all are, or none.
+  bool flexible() const { return !buses.empty() && buses[0].settings.flexible(); }
   double cycleSeconds() const { return toSeconds(cycle); }
   int cyclesOf(int ms) const;  ///< rounded up
 };

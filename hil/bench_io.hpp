@@ -5,6 +5,7 @@
 
 #include "hil/bench_master.hpp"
 #include "hil/can_bus.hpp"
+#include "hil/frame_bits.hpp"
 
 namespace ballbot {
 
@@ -21,10 +22,7 @@ class BenchIo {
   bool collect(std::chrono::steady_clock::time_point until) noexcept;
   bool allUp() const noexcept;
   /// Bits of all frames that went over a bus, either way: nominal and with the most stuffing.
-  struct Load {
-    std::int64_t nominal = 0, worst = 0;
-  };
-  const Load& load(int bus) const noexcept { return load_[static_cast<std::size_t>(bus)]; }
+  const FrameBits& load(int bus) const noexcept { return load_[static_cast<std::size_t>(bus)]; }
 
  private:
   bool anyUp() const noexcept;
@@ -33,7 +31,7 @@ class BenchIo {
 
   BenchMaster& master_;
   std::vector<CanBus*> buses_;
-  std::vector<Load> load_;
+  std::vector<FrameBits> load_;
 };
 
 }  // namespace ballbot

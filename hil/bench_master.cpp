@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "hil/shared_outputs.hpp"
+
 namespace ballbot {
 namespace {
 
-constexpr std::uint8_t kImuPdos = 2, kAllImuPdos = 3;
+// The IMU's frames: acceleration and counter, rates; one after the other in CAN FD's only one.
 constexpr std::uint8_t kAccelBytes = 8, kGyroBytes = 6;
 
 /// Number of the TPDO a frame is for `node`, or -1.
@@ -34,10 +36,15 @@ bool isMasters(const BenchConfig& config, int bus, const CanFrame& f) noexcept {
 }
 
 BenchMaster::BenchMaster(const BenchConfig& config)
-    : config_(config), outbox_(config.buses.size()) {
+    : config_(config),
+      all_imu_pdos_(config.flexible() ? 0b01 : 0b11),
+      outbox_(config.buses.size()) {
   const int sdo = config.cyclesOf(config.sdo_timeout_ms);
   for (const DriveConfig& d : config.drives) {
     links_.emplace_back(d.node, driveSetup(config, d), sdo, config.safety.heartbeat_cycles);
+  }
+  for (std::size_t i = 0; i < outbox_.size(); ++i) {
+    outbox_[i].setFlexible(config.buses[i].settings.flexible());
   }
   links_.emplace_back(config.imu.node, imuSetup(config), sdo, config.safety.heartbeat_cycles);
   status_ = findInput({0x6041, 0});
@@ -46,6 +53,14 @@ BenchMaster::BenchMaster(const BenchConfig& config)
   velocity_ = findInput({0x606C, 0});
   motor_position_ = findInput({0x60E4, 1});
   demand_ = findInput({0x6074, 0});
+  if (config.shared_outputs) {
+    for (int bus = 0; bus < busCount(); ++bus) {
+      shared_frames_.push_back(sharedFrame(config, bus));
+    }
+    for (std::size_t i = 0; i < kDriveCount; ++i) {
+      shared_at_[i] = sharedOffset(config, config.drives[i]);
+    }
+  }
   heartbeat_period_ = std::max(
       1, static_cast<int>(std::chrono::milliseconds(config.master_heartbeat_ms) / config.cycle));
 }
@@ -127,7 +142,7 @@ void BenchMaster::readPdo(int i, int pdo, const CanFrame& frame) noexcept {
     return;
   }
   if (static_cast<std::size_t>(pdo) >= config_.inputs.size() ||
-      frame.size != config_.inputs[static_cast<std::size_t>(pdo)].bytes()) {
+      frame.size != config_.inputs[static_cast<std::size_t>(pdo)].frameBytes()) {
     ++bad_pdos_;  // counts as missing
     return;
   }
@@ -147,22 +162,30 @@ void BenchMaster::readPdo(int i, int pdo, const CanFrame& frame) noexcept {
 }
 
 void BenchMaster::readImu(int pdo, const CanFrame& frame) noexcept {
-  if (!running_ || pdo >= kImuPdos) return;
+  const bool whole = config_.flexible();
+  if (!running_ || pdo >= (whole ? 1 : 2)) return;
   if (!collecting_) {
     ++late_pdos_;
     return;
   }
-  if (frame.size != (pdo == 0 ? kAccelBytes : kGyroBytes)) {
+  const std::uint8_t expected = pdo == 1 ? kGyroBytes
+                                : whole  ? kFlexibleSizes[flexibleLengthCode(kAccelBytes + kGyroBytes)]
+                                         : kAccelBytes;
+  if (frame.size != expected) {
     ++bad_pdos_;
     return;
   }
-  const double unit = pdo == 0 ? config_.imu.accel_resolution : config_.imu.gyro_resolution;
-  std::array<double, 3>& axes = pdo == 0 ? sample_.accel : sample_.gyro;
-  for (std::size_t i = 0; i < 3; ++i) {
-    axes[i] = static_cast<double>(getSigned(&frame.data[2 * i], 2)) * unit;
-  }
+  const auto readAxes = [&](std::size_t at, double unit, std::array<double, 3>& axes) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      axes[i] = static_cast<double>(getSigned(&frame.data[at + 2 * i], 2)) * unit;
+    }
+  };
   if (pdo == 0) {
+    readAxes(0, config_.imu.accel_resolution, sample_.accel);
     imu_pending_counter_ = static_cast<std::uint16_t>(getLittleEndian(&frame.data[6], 2));
+  }
+  if (pdo == 1 || whole) {
+    readAxes(whole ? kAccelBytes : 0, config_.imu.gyro_resolution, sample_.gyro);
   }
   imu_seen_ = static_cast<std::uint8_t>(imu_seen_ | 1U << pdo);
 }
@@ -176,7 +199,7 @@ bool BenchMaster::isAwaited() const noexcept {
   for (const std::uint8_t seen : pdos_seen_) {
     if (seen != all) return true;
   }
-  return imu_seen_ != kAllImuPdos;
+  return imu_seen_ != all_imu_pdos_;
 }
 
 void BenchMaster::endCycle() noexcept {
@@ -198,7 +221,7 @@ void BenchMaster::endCycle() noexcept {
   }
   // A counter that stands still is an IMU that hangs, whatever it goes on sending.
   const auto grown = static_cast<std::uint16_t>(imu_pending_counter_ - imu_counter_);
-  if (imu_seen_ == kAllImuPdos && grown != 0) {
+  if (imu_seen_ == all_imu_pdos_ && grown != 0) {
     sample_.imu_count += sample_.imu_count == 0 ? 1 : grown;
     sample_.imu_cycle = cycle_;
     imu_counter_ = imu_pending_counter_;
@@ -206,7 +229,7 @@ void BenchMaster::endCycle() noexcept {
   } else {
     ++imu_stale_;
   }
-  imu_misses_.add(imu_stale_ != 0);
+  imu_misses_.add(imu_stale_ >= config_.imu.period_cycles);
 }
 
 void BenchMaster::setGoal(DriveGoal goal) noexcept {
@@ -255,19 +278,27 @@ void BenchMaster::writeOutputs(const BenchCommand& command) noexcept {
     const double velocity = enabled ? command.velocity[i] : 0;
     for (std::size_t p = 0; p < config_.outputs.size(); ++p) {
       const PdoMapping& map = config_.outputs[p];
-      CanFrame frame;
-      frame.id = kCobRpdo[p] + static_cast<std::uint32_t>(config.node);
-      frame.size = map.bytes();
+      CanFrame own;
+      own.id = kCobRpdo[p] + static_cast<std::uint32_t>(config.node);
+      own.size = map.frameBytes();
+      const bool shared = config_.shared_outputs;
+      CanFrame& frame = shared ? shared_frames_[static_cast<std::size_t>(config.bus)] : own;
       const auto put = [&](std::uint16_t index, std::int64_t value) {
-        if (const PdoField field = map.find({index, 0})) field.put(frame, value);
+        PdoField field = map.find({index, 0});
+        if (!field) return;
+        field.offset = static_cast<std::uint8_t>(field.offset + shared_at_[i]);
+        field.put(frame, value);
       };
       put(0x6040, controlword);
       put(0x6071, d.sent_torque);
       put(0x60B2, d.sent_torque);
       put(0x607A, config.scaling.angleCounts(angle));
       put(0x60B1, config.scaling.velocityCounts(velocity));
-      outbox(config.bus).push(frame);
+      if (!shared) outbox(config.bus).push(frame);
     }
+  }
+  for (std::size_t bus = 0; bus < shared_frames_.size(); ++bus) {
+    if (shared_frames_[bus].size > 0) outbox_[bus].push(shared_frames_[bus]);
   }
 }
 

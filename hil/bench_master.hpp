@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -79,7 +80,10 @@ class BenchMaster {
   const Drive& drive(int i) const noexcept { return drives_[static_cast<std::size_t>(i)]; }
   const NodeLink& link(int i) const noexcept { return links_[static_cast<std::size_t>(i)]; }
   static constexpr int kImuLink = kDriveCount;
-  int imuStaleCycles() const noexcept { return imu_stale_; }
+  /// Since a new IMU sample was due; 0 if none is overdue.
+  int imuStaleCycles() const noexcept {
+    return std::max(0, imu_stale_ - config_.imu.period_cycles + 1);
+  }
   /// Cycles of the last ones without a new IMU sample.
   int imuMisses() const noexcept { return imu_misses_.count(); }
   bool allDrives(DriveState state) const noexcept;
@@ -106,11 +110,13 @@ class BenchMaster {
   std::array<std::uint8_t, kDriveCount> pdos_seen_{};  ///< in this cycle, a bit each
   std::array<bool, kDriveCount> twin_seen_{};          ///< in this cycle
   std::optional<CanFrame> foreign_;
-  std::uint8_t imu_seen_ = 0;
+  std::uint8_t imu_seen_ = 0, all_imu_pdos_;
   int imu_stale_ = 0;
   MissWindow imu_misses_;
   std::uint16_t imu_counter_ = 0;
   std::uint16_t imu_pending_counter_ = 0;
+  std::vector<CanFrame> shared_frames_;                ///< by bus, of shared outputs
+  std::array<std::uint8_t, kDriveCount> shared_at_{};  ///< where a drive's outputs begin in them
   std::vector<FrameQueue> outbox_;
   BenchSample sample_;
   std::int64_t cycle_ = 0;

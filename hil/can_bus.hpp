@@ -11,7 +11,10 @@ namespace ballbot {
 /// How a bus is to be run.
 struct CanBusSettings {
   int bitrate_kbps = 1000;
-  bool acknowledges = true;  ///< false: an slcan adapter that answers no command
+  bool acknowledges = true;   ///< false: an slcan adapter that answers no command
+  int data_bitrate_kbps = 0;  ///< of CAN FD; 0: a classic bus
+
+  bool flexible() const noexcept { return data_bitrate_kbps != 0; }
 };
 
 /// What a bus has counted since it was opened.

@@ -102,7 +102,7 @@ std::optional<Emergency> readEmergency(const CanFrame& frame) noexcept {
   if (node == 0 || !isPlainData(frame, 8)) return std::nullopt;
   Emergency e{
       node, static_cast<std::uint16_t>(getLittleEndian(frame.data.data(), 2)), frame.data[2], {}};
-  std::copy(frame.data.begin() + 3, frame.data.end(), e.vendor.begin());
+  std::copy(frame.data.begin() + 3, frame.data.begin() + 8, e.vendor.begin());
   return e;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "hil/drive_setup.hpp"
+#include "hil/shared_outputs.hpp"
 
 namespace ballbot {
 namespace {
@@ -136,6 +137,12 @@ class SheetCheck {
                                static_cast<std::uint8_t>(code >> 8 & 0xFF)};
     const int bits = static_cast<int>(code & 0xFF);
     const char* direction = transmit ? "TPDO" : "RPDO";
+    if (isDummy(object)) {
+      if (!transmit && sheet_.hasDummy(object.index)) return;
+      say(fmt::format("{} fills up an RPDO that drives share (shared_outputs), {} says Dummy{:04X}=0",
+                      toText(object), sheet_.file(), object.index));
+      return;
+    }
     const EdsEntry* e = lookUp(object, transmit ? "in a TPDO" : "in an RPDO");
     if (e == nullptr) return;
     if (transmit ? !e->inTransmitPdo() : !e->inReceivePdo()) {
@@ -205,8 +212,10 @@ std::vector<std::string> checkDataSheets(const BenchConfig& config) {
   }
   if (config.imu.data_sheet) {
     SheetCheck check(config.imu.data_sheet, config.imu.node);
-    check.checkFixed(0x1A00, {0x20010110, 0x20010210, 0x20010310, 0x20030010});
-    check.checkFixed(0x1A01, {0x20020110, 0x20020210, 0x20020310});
+    if (!config.flexible()) {
+      check.checkFixed(0x1A00, {0x20010110, 0x20010210, 0x20010310, 0x20030010});
+      check.checkFixed(0x1A01, {0x20020110, 0x20020210, 0x20020310});
+    }
     all.add(config.imu.data_sheet.where, "IMU",
             check.run(imuSetup(config), rateOf(config, config.imu.bus)));
   }

@@ -4,6 +4,7 @@
 
 #include "hil/canopen_codec.hpp"
 #include "hil/cia402.hpp"
+#include "hil/shared_outputs.hpp"
 
 namespace ballbot {
 namespace {
@@ -30,13 +31,12 @@ class Script {
 };
 
 /// Switches a PDO off, maps it anew and switches it on again; or leaves it off.
-void setUpPdo(Script& s, bool transmit, int number, int node, const PdoMapping* map,
+/// @param identifier  of its frames
+void setUpPdo(Script& s, bool transmit, int number, std::uint32_t identifier, const PdoMapping* map,
               std::int64_t transmission, int deadline_ms) {
-  const auto n = static_cast<std::size_t>(number);
   const auto parameters = static_cast<std::uint16_t>((transmit ? 0x1800 : 0x1400) + number);
   const auto mapping = static_cast<std::uint16_t>((transmit ? 0x1A00 : 0x1600) + number);
-  const std::int64_t id =
-      (transmit ? kCobTpdo[n] + kNoRtr : static_cast<std::int64_t>(kCobRpdo[n])) + node;
+  const std::int64_t id = identifier + (transmit ? kNoRtr : 0);
   s.write(parameters, 1, 4, id + kPdoOff, "PDO off");
   if (map == nullptr) return;
   s.write(mapping, 0, 1, 0, "PDO mapping count");
@@ -106,9 +106,14 @@ std::vector<SetupStep> driveSetup(const BenchConfig& bench, const DriveConfig& d
 
   for (int i = 0; i < 4; ++i) {
     const auto n = static_cast<std::size_t>(i);
-    setUpPdo(s, false, i, drive.node, n < bench.outputs.size() ? &bench.outputs[n] : nullptr,
-             bench.synchronous_outputs ? kEverySync : kOnReception, bench.output_deadline_ms);
-    setUpPdo(s, true, i, drive.node, n < bench.inputs.size() ? &bench.inputs[n] : nullptr,
+    const auto node = static_cast<std::uint32_t>(drive.node);
+    const bool shared = bench.shared_outputs && i == 0;
+    const PdoMapping* own = n < bench.outputs.size() ? &bench.outputs[n] : nullptr;
+    const PdoMapping all = shared ? sharedOutputs(bench, drive) : PdoMapping{};
+    setUpPdo(s, false, i, shared ? sharedIdentifier(bench, drive.bus) : kCobRpdo[n] + node,
+             shared ? &all : own, bench.synchronous_outputs ? kEverySync : kOnReception,
+             bench.output_deadline_ms);
+    setUpPdo(s, true, i, kCobTpdo[n] + node, n < bench.inputs.size() ? &bench.inputs[n] : nullptr,
              kEverySync, 0);
   }
   setUpHeartbeats(s, bench);
@@ -141,8 +146,25 @@ std::vector<SetupStep> imuSetup(const BenchConfig& bench) {
             "accelerometer resolution in 1e-9 m/s^2");
   s.require(Kind::kExpect, 0x2004, 2, std::llround(1e9 * bench.imu.gyro_resolution),
             "gyro resolution in 1e-9 rad/s");
+  // As it is delivered it sends two frames; CAN FD has room for all in one.
+  if (bench.flexible()) {
+    const PdoMapping all = imuMapping();
+    const auto node = static_cast<std::uint32_t>(bench.imu.node);
+    setUpPdo(s, true, 0, kCobTpdo[0] + node, &all, kEverySync, 0);
+    setUpPdo(s, true, 1, kCobTpdo[1] + node, nullptr, kEverySync, 0);
+  }
   setUpHeartbeats(s, bench);
   return s.steps;
+}
+
+PdoMapping imuMapping() {
+  return PdoMapping({{{0x2001, 1}, 16},
+                     {{0x2001, 2}, 16},
+                     {{0x2001, 3}, 16},
+                     {{0x2003, 0}, 16},
+                     {{0x2002, 1}, 16},
+                     {{0x2002, 2}, 16},
+                     {{0x2002, 3}, 16}});
 }
 
 }  // namespace ballbot

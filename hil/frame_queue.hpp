@@ -15,9 +15,13 @@ class FrameQueue {
   /// False if it is full; the frame is lost then.
   bool push(const CanFrame& frame) noexcept {
     if (size_ == kCapacity) return false;
-    frames_[size_++] = frame;
+    CanFrame& slot = frames_[size_++];
+    slot = frame;
+    slot.flexible = slot.fast = flexible_;
     return true;
   }
+  /// Frames for a CAN FD bus: all of them go as such, with the data at its own rate.
+  void setFlexible(bool flexible) noexcept { flexible_ = flexible; }
   void clear() noexcept { size_ = 0; }
   std::size_t size() const noexcept { return size_; }
   const CanFrame* begin() const noexcept { return frames_.data(); }
@@ -26,6 +30,7 @@ class FrameQueue {
  private:
   std::array<CanFrame, kCapacity> frames_{};
   std::size_t size_ = 0;
+  bool flexible_ = false;
 };
 
 }  // namespace ballbot

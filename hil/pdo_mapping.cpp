@@ -29,8 +29,8 @@ PdoMapping::PdoMapping(std::vector<PdoEntry> entries) : entries_(std::move(entri
     }
     bits += entry.bits;
   }
-  if (bits > 64) {
-    throw InputError(fmt::format("a PDO of {} bits; at most 64 fit in a CAN frame", bits));
+  if (bits > 8 * CanFrame::kMaxFlexibleSize) {
+    throw InputError(fmt::format("a PDO of {} bits; at most 512 fit in a CAN FD frame", bits));
   }
   bytes_ = static_cast<std::uint8_t>(bits / 8);
 }

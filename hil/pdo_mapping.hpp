@@ -35,11 +35,15 @@ struct PdoField {
 class PdoMapping {
  public:
   PdoMapping() = default;
-  /// @throw InputError if an entry is not 8, 16, 24, 32 or 64 bits wide or all are over 64 bits.
+  /// @throw InputError if an entry is not 8, 16, 24, 32 or 64 bits wide or all are longer than a frame of
+  ///        CAN FD.
   explicit PdoMapping(std::vector<PdoEntry> entries);
 
   const std::vector<PdoEntry>& entries() const noexcept { return entries_; }
+  /// Bytes of the objects.
   std::uint8_t bytes() const noexcept { return bytes_; }
+  /// Bytes of the frame that carries them: frames of CAN FD have some lengths only.
+  std::uint8_t frameBytes() const noexcept { return kFlexibleSizes[flexibleLengthCode(bytes_)]; }
   PdoField find(ObjectAddress object) const noexcept;
 
  private:

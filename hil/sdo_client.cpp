@@ -102,7 +102,7 @@ CanFrame SdoClient::request(std::uint8_t command) const noexcept {
 
 CanFrame SdoClient::segmentRequest(std::uint8_t command) const noexcept {
   CanFrame frame = request(command);
-  std::fill(frame.data.begin() + 1, frame.data.end(), std::uint8_t{0});
+  std::fill(frame.data.begin() + 1, frame.data.begin() + 8, std::uint8_t{0});
   return frame;
 }
 

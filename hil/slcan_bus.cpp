@@ -28,6 +28,16 @@ char rateDigit(const std::string& device, int bitrate_kbps) {
                   device, bitrate_kbps));
 }
 
+/// The digit of the Y command: Mbit/s.
+char dataRateDigit(const std::string& device, const CanBusSettings& settings) {
+  const int mbps = settings.data_bitrate_kbps / 1000;
+  if (settings.data_bitrate_kbps % 1000 == 0 && mbps >= 1 && mbps <= 8) {
+    return static_cast<char>('0' + mbps);
+  }
+  throw InputError(fmt::format("{}: CAN FD data at {} kbit/s; slcan adapters have whole Mbit/s, 1 to 8",
+                               device, settings.data_bitrate_kbps));
+}
+
 }  // namespace
 
 SlcanBus::SlcanBus(const std::string& device, const CanBusSettings& settings)
@@ -42,6 +52,7 @@ SlcanBus::SlcanBus(const std::string& device, const CanBusSettings& settings)
   // An adapter whose channel is closed already refuses C; one that was left open sends frames.
   command("C", true);
   command(std::string("S") + rate_, false);
+  if (settings.flexible()) command(std::string("Y") + dataRateDigit(device, settings), false);
   command("O", false);
 }
 
@@ -68,7 +79,10 @@ void SlcanBus::command(const std::string& line, bool may_be_refused) {
     if (item == SlcanParser::Item::kDone) return;
     if (item == SlcanParser::Item::kRefused) {
       if (may_be_refused) return;
-      throw InputError(fmt::format("{}: the adapter refuses '{}'", port_.path(), line));
+      throw InputError(fmt::format("{}: the adapter refuses '{}'{}", port_.path(), line,
+                                   line[0] == 'Y' ? ", so it has no CAN FD at that data bit rate; "
+                                                    "2 and 5 Mbit/s are common. SocketCAN has CAN FD, too"
+                                                  : ""));
     }
     if (item == SlcanParser::Item::kNone) port_.waitReadable(milliseconds(50));
   }
@@ -147,7 +161,9 @@ void SlcanBus::fill() noexcept {
 }
 
 std::string SlcanBus::describe() const {
-  return fmt::format("slcan on {}, {} kbit/s{}", port_.path(), settings_.bitrate_kbps,
+  const std::string fd =
+      settings_.flexible() ? fmt::format(", CAN FD at {} kbit/s", settings_.data_bitrate_kbps) : "";
+  return fmt::format("slcan on {}, {} kbit/s{}{}", port_.path(), settings_.bitrate_kbps, fd,
                      settings_.acknowledges ? "" : ", an adapter that acknowledges nothing");
 }
 

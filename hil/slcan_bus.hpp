@@ -10,7 +10,8 @@
 
 namespace ballbot {
 
-/// A CAN bus behind a serial adapter that speaks the LAWICEL protocol.
+/// A CAN bus behind a serial adapter that speaks the LAWICEL protocol; CAN FD where it also speaks what
+/// CANable adapters have added to it.
 class SlcanBus final : public CanBus {
  public:
   /// Opens the device, closes whatever channel was open, sets the bit rate and opens the channel.

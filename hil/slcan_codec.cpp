@@ -33,12 +33,12 @@ std::size_t encodeSlcan(const CanFrame& frame, std::array<char, kSlcanLineMax>& 
   if (!isValid(frame)) return 0;
   constexpr const char* kDigits = "0123456789ABCDEF";
   std::size_t n = 0;
-  const char kind = frame.remote ? 'r' : 't';
+  const char kind = frame.remote ? 'r' : !frame.flexible ? 't' : frame.fast ? 'b' : 'd';
   out[n++] = frame.extended ? static_cast<char>(kind - 'a' + 'A') : kind;
   for (int shift = frame.extended ? 28 : 8; shift >= 0; shift -= 4) {
     out[n++] = kDigits[frame.id >> shift & 0xFU];
   }
-  out[n++] = static_cast<char>('0' + frame.size);
+  out[n++] = kDigits[frame.flexible ? flexibleLengthCode(frame.size) : frame.size];
   for (std::size_t i = 0; !frame.remote && i < frame.size; ++i) {
     out[n++] = kDigits[frame.data[i] >> 4];
     out[n++] = kDigits[frame.data[i] & 0xFU];
@@ -75,6 +75,10 @@ SlcanParser::Item SlcanParser::finishLine() noexcept {
     case 'T':
     case 'r':
     case 'R':
+    case 'd':
+    case 'D':
+    case 'b':
+    case 'B':
       return parseFrame() ? Item::kFrame : Item::kMalformed;
     case 'z':
     case 'Z':
@@ -93,14 +97,17 @@ SlcanParser::Item SlcanParser::finishLine() noexcept {
 bool SlcanParser::parseFrame() noexcept {
   const char kind = line_[0];
   CanFrame frame;
-  frame.extended = kind == 'T' || kind == 'R';
+  frame.extended = kind < 'a';
   frame.remote = kind == 'r' || kind == 'R';
+  frame.fast = kind == 'b' || kind == 'B';
+  frame.flexible = frame.fast || kind == 'd' || kind == 'D';
   const std::size_t id_digits = frame.extended ? 8 : 3;
   if (length_ < 2 + id_digits) return false;
   if (!readHex(&line_[1], id_digits, frame.id)) return false;
-  const char size = line_[1 + id_digits];
-  if (size < '0' || size > '8') return false;
-  frame.size = static_cast<std::uint8_t>(size - '0');
+  std::uint32_t length = 0;
+  if (!readHex(&line_[1 + id_digits], 1, length)) return false;
+  if (!frame.flexible && length > CanFrame::kMaxSize) return false;
+  frame.size = frame.flexible ? kFlexibleSizes[length] : static_cast<std::uint8_t>(length);
   if (!isValid(frame)) return false;
 
   const std::size_t start = 2 + id_digits;

@@ -13,11 +13,13 @@ namespace ballbot {
 //
 //   tiiildd..  Tiiiiiiiildd..   data frame, 11 or 29 bit identifier, l bytes, hexadecimal
 //   riiil      Riiiiiiiil       remote frame
+//   diiil.. Diiiiiiiil..        CAN FD, as CANable adapters have it: l is the length code, 0 to F;
+//   biiil.. Biiiiiiiil..        b and B with the data at the rate of Yn
 //   CR (CR LF)                  ends a line; alone: done.  z CR, Z CR: frame queued
 //   BELL                        the adapter refuses the last command
 
-/// Longest line either side sends: T, 8 digits, length, 16 digits, 8 of a time stamp, CR.
-constexpr std::size_t kSlcanLineMax = 35;
+/// Longest line either side sends: B, 8 digits, length, 128 digits, 8 of a time stamp, CR.
+constexpr std::size_t kSlcanLineMax = 147;
 
 /// Writes `frame` as one line with its CR; returns the number of characters, 0 if it is not valid.
 std::size_t encodeSlcan(const CanFrame& frame, std::array<char, kSlcanLineMax>& out) noexcept;

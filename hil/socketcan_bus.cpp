@@ -1,11 +1,9 @@
 #include "hil/socketcan_bus.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
 #include <fmt/format.h>
-#include <linux/can.h>
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
@@ -15,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "hil/serial_port.hpp"
+#include "hil/socketcan_frame.hpp"
 
 namespace ballbot {
 namespace {
@@ -31,9 +30,17 @@ int openSocket(const std::string& interface) {
   throw InputError(fmt::format("{}: no CAN socket: {}", interface, std::strerror(errno)));
 }
 
+/// The command that sets an interface up.
+std::string ipLink(const std::string& interface, const CanBusSettings& s) {
+  std::string out =
+      fmt::format("ip link set {} up type can bitrate {}", interface, 1000 * s.bitrate_kbps);
+  if (s.flexible()) out += fmt::format(" dbitrate {} fd on", 1000 * s.data_bitrate_kbps);
+  return out;
+}
+
 }  // namespace
 
-SocketCanBus::SocketCanBus(const std::string& interface)
+SocketCanBus::SocketCanBus(const std::string& interface, const CanBusSettings& settings)
     : interface_(interface), socket_(openSocket(interface)) {
   const auto refuse = [&](const std::string& text) {
     ::close(socket_);
@@ -49,7 +56,15 @@ SocketCanBus::SocketCanBus(const std::string& interface)
   address.can_family = AF_CAN;
   address.can_ifindex = request.ifr_ifindex;
   if (::ioctl(socket_, SIOCGIFFLAGS, &request) != 0 || (request.ifr_flags & IFF_UP) == 0) {
-    refuse(fmt::format("is down. Try: ip link set {} up type can bitrate 1000000", interface));
+    refuse("is down. Try: " + ipLink(interface, settings));
+  }
+  if (settings.flexible()) {
+    const int on = 1;
+    if (::ioctl(socket_, SIOCGIFMTU, &request) != 0 || request.ifr_mtu != CANFD_MTU ||
+        ::setsockopt(socket_, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on) != 0) {
+      refuse("is no CAN FD interface, or not set up as one. Try: ip link set " + interface +
+             " down && " + ipLink(interface, settings));
+    }
   }
   const can_err_mask_t errors = CAN_ERR_BUSOFF | CAN_ERR_CRTL | CAN_ERR_RESTARTED;
   ::setsockopt(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &errors, sizeof errors);
@@ -61,12 +76,10 @@ SocketCanBus::SocketCanBus(const std::string& interface)
 SocketCanBus::~SocketCanBus() { ::close(socket_); }
 
 bool SocketCanBus::send(const CanFrame& frame) noexcept {
-  can_frame raw{};
-  raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U);
-  raw.can_dlc = frame.size;
-  std::copy(frame.data.begin(), frame.data.end(), raw.data);
-  if (!isValid(frame) || ::write(socket_, &raw, sizeof raw) != sizeof raw) {
-    if (errno == ENETDOWN || errno == ENXIO || errno == ENODEV) up_ = false;
+  canfd_frame raw;
+  const std::size_t size = toKernel(frame, raw);
+  if (size == 0 || ::write(socket_, &raw, size) != static_cast<ssize_t>(size)) {
+    if (size != 0 && (errno == ENETDOWN || errno == ENXIO || errno == ENODEV)) up_ = false;
     ++counters_.refused;
     return false;
   }
@@ -75,30 +88,26 @@ bool SocketCanBus::send(const CanFrame& frame) noexcept {
 }
 
 bool SocketCanBus::receive(CanFrame& out) noexcept {
-  can_frame raw{};
+  canfd_frame raw{};
   for (;;) {
     const ssize_t n = ::read(socket_, &raw, sizeof raw);
     if (n < 0) {
       if (errno != EAGAIN && errno != EINTR) up_ = false;
       return false;
     }
-    if (n != sizeof raw || raw.can_dlc > CanFrame::kMaxSize) {
-      ++counters_.malformed;
-      continue;
+    switch (fromKernel(raw, static_cast<std::size_t>(n), out)) {
+      case KernelFrame::kFrame:
+        ++counters_.received;
+        return true;
+      case KernelFrame::kError:
+        ++counters_.errors;
+        if ((raw.can_id & CAN_ERR_BUSOFF) != 0) up_ = false;
+        break;
+      case KernelFrame::kMalformed:
+        ++counters_.malformed;
+        if (n == 0) return false;  // the other end is gone
+        break;
     }
-    if ((raw.can_id & CAN_ERR_FLAG) != 0) {
-      ++counters_.errors;
-      if ((raw.can_id & CAN_ERR_BUSOFF) != 0) up_ = false;
-      continue;
-    }
-    out = CanFrame{};
-    out.extended = (raw.can_id & CAN_EFF_FLAG) != 0;
-    out.remote = (raw.can_id & CAN_RTR_FLAG) != 0;
-    out.id = raw.can_id & (out.extended ? CAN_EFF_MASK : CAN_SFF_MASK);
-    out.size = raw.can_dlc;
-    if (!out.remote) std::copy(raw.data, raw.data + raw.can_dlc, out.data.begin());
-    ++counters_.received;
-    return true;
   }
 }
 

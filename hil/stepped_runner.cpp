@@ -11,7 +11,7 @@ namespace {
 // machine is no fault of a drive. All of them together stay below the patience of whoever steps.
 constexpr std::chrono::milliseconds kPatiencePerSlowness{1250};
 // The robot may still swing when a session begins; then the bench waits for rest so long.
-constexpr int kRestPatience = 400;
+constexpr int kRestPatienceMs = 1000;
 // While answers are missing nobody waits for them as long as for the first one.
 constexpr std::chrono::milliseconds kShortPatience{50};
 // Wall-clock time for the way down while drives answer, and what each cycle gets after it.
@@ -108,13 +108,14 @@ void SteppedRunner::engage() {
   wishes_ = {};
   wishes_.prepare = true;
   int waited = 0;
+  const int rest_patience = bench_.config().cyclesOf(kRestPatienceMs);
   while (bench_.safety().state() != SafetyState::kEnabled ||
          !bench_.master().allDrives(DriveState::kOperationEnabled)) {
     wishes_.engage = bench_.safety().state() != SafetyState::kDisabled;
     if (!actuated_) actuate();
     throwIfFault();
     throwIfStopped();
-    if (bench_.safety().engageRefused() && ++waited > kRestPatience) {
+    if (bench_.safety().engageRefused() && ++waited > rest_patience) {
       release();
       requireGoodEnd();
       throw LostParticipantError("bench", "bench: the robot does not come to rest; not engaged");

@@ -45,10 +45,14 @@ Report benchJson(const Bench& bench, const BenchIo& io) {
   out["late_pdos"] = bench.master().latePdos();
   out["bus_load"] = Report::array();
   for (std::size_t i = 0; i < config.buses.size() && cycles > 0; ++i) {
-    const BenchIo::Load& load = io.load(static_cast<int>(i));
-    const double capacity = cycles * config.cycleSeconds() * 1000.0 * config.buses[i].settings.bitrate_kbps;
-    out["bus_load"].push_back({{"nominal", static_cast<double>(load.nominal) / capacity},
-                               {"worst_stuffing", static_cast<double>(load.worst) / capacity}});
+    const FrameBits& load = io.load(static_cast<int>(i));
+    const CanBusSettings& bus = config.buses[i].settings;
+    const auto share = [&](const WireBits& bits) {
+      return 1e-6 * bits.microseconds(bus.bitrate_kbps, bus.data_bitrate_kbps) /
+             (cycles * config.cycleSeconds());
+    };
+    out["bus_load"].push_back(
+        {{"nominal", share(load.nominal)}, {"worst_stuffing", share(load.worst)}});
   }
   return out;
 }

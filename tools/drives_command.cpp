@@ -45,8 +45,11 @@ ExitCode emulateDrives(const DrivesArguments& a) {
   const ConfigNode tree = loadBenchTree(a.config, a.overrides);
   const EmulatorConfig config = readEmulatorConfig(tree);
   EmulatedBench bench(config, robotBehind(config, readBenchConfig(tree), a.config));
+  // The rates of a kernel's interface are set where it is set up; this one stands in an error's text.
+  CanBusSettings settings;
+  if (config.flexible) settings.data_bitrate_kbps = 5000;
   const auto buses = openEmulatedBuses(
-      config, [](const std::string& address) { return openCanBus(address); });
+      config, [&](const std::string& address) { return openCanBus(address, settings); });
   for (const auto& bus : buses) fmt::print(stderr, "{}\n", bus->describe());
   fmt::print(stderr, "six drives and an IMU are powered on; {}. Ctrl-C ends.\n",
              config.stepped ? "SYNC is their clock" : "in real time");

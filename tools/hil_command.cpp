@@ -11,6 +11,7 @@
 #include "cosim/serve.hpp"
 #include "experiment/plant_link.hpp"
 #include "hil/bench_check.hpp"
+#include "hil/bus_budget.hpp"
 #include "hil/data_sheet_check.hpp"
 #include "hil/hil_participant.hpp"
 #include "hil/latency/kernel_floor.hpp"
@@ -39,7 +40,7 @@ struct HilArguments {
   RecordOptions records;
   double floor_s = 1;
   bool floor_meanwhile = false;
-  bool faults = false, checks = false, check = false, keep_serving = false, json = false;
+  bool faults = false, checks = false, check = false, budget = false, keep_serving = false, json = false;
   int random = 0;
   std::uint64_t seed = 1;
 };
@@ -119,6 +120,24 @@ ExitCode showBench(const HilArguments& a) {
   const auto nodes = checkBench(config, buses.ends);
   fmt::print("{}", a.json ? jsonText(checkJson(nodes, sheets)) + "\n" : checkTable(nodes, sheets));
   return allGood(nodes) && sheets.empty() ? ExitCode::kPassed : ExitCode::kRequirementMissed;
+}
+
+ExitCode showBudget(const HilArguments& a) {
+  const BenchConfig config = readBenchConfig(loadBenchTree(a.config, a.overrides));
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  int bus = 0;
+  for (const BusBudget& b : busBudget(config)) {
+    list.push_back({{"frames_per_cycle", b.frames_per_cycle},
+                    {"nominal", b.nominal},
+                    {"worst_stuffing", b.worst}});
+    if (a.json) continue;
+    fmt::print("bus {}: {} frames in every cycle of {:.6g} ms: load {:.0f} %, {:.0f} % with the most "
+               "stuffing\n",
+               bus++, b.frames_per_cycle, 1e3 * config.cycleSeconds(), 100 * b.nominal,
+               100 * b.worst);
+  }
+  if (a.json) fmt::print("{}\n", jsonText(nlohmann::ordered_json{{"buses", list}}));
+  return ExitCode::kPassed;
 }
 
 /// How serving ended, an exception included: whatever it was, the bench is brought down and
@@ -210,6 +229,7 @@ ExitCode serveBench(const HilArguments& a) {
   requireDataSheets(config);
   RunFacts facts = benchFacts(a.config, a.overrides, tree);
   facts.config_digest = fmt::format("{:016x}", digest);
+  requireRoom(config);
   requireFreeAddress({a.lcm_url, a.channel});
   std::optional<KernelFloor::Result> before;
   if (!config.stepped && a.floor_s > 0) {
@@ -288,6 +308,7 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
                       "The record; default: beside the bench file, NAME.commissioned.json");
   command->add_option("--without-commissioning", a->without_commissioning,
                       "Serve real drives without a record, for this reason in words");
+  command->add_flag("--budget", a->budget, "Print how full the buses will be; no bus is opened");
   command->add_flag("--faults", a->faults,
                     "Try every fault on emulated drives in this process and print the table");
   command
@@ -331,6 +352,10 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
       return;
     }
     if (a->config.empty()) throw InputError("hil: give a bench file, e.g. configs/hil/bench.yaml");
+    if (a->budget) {
+      result = showBudget(*a);
+      return;
+    }
     result = a->check ? showBench(*a) : a->commission ? commissionOpened(*a) : serveBench(*a);
   });
 }

@@ -11,6 +11,7 @@
 #include "core/angle.hpp"
 #include "experiment/scenario.hpp"
 #include "experiment/text_file.hpp"
+#include "hil/bus_budget.hpp"
 #include "hil/data_sheet_check.hpp"
 #include "hil/identify_drive.hpp"
 #include "hil/identify_report.hpp"
@@ -122,6 +123,7 @@ ExitCode identifyOnBench(IdentifyArguments a) {
   const ConfigNode tree = loadBenchTree(a.config, a.overrides);
   const BenchConfig config = forIdentification(readBenchConfig(tree));
   requireDataSheets(config);
+  requireRoom(config);
   a.plan.drive = a.drive - 1;
   const ScenarioToChange scenario = scenarioToChange(a, config);
   std::vector<std::unique_ptr<CanBus>> owned;

@@ -41,6 +41,11 @@ class CanopenNode {
   void onSync();
   /// @param now_ns never goes back
   void onTime(std::int64_t now_ns);
+  /// On a CAN FD bus, where all it sends are such frames and a PDO may have 64 bytes.
+  void setFlexible(bool on) {
+    flexible_ = on;
+    pdos_.setFlexible(on);
+  }
   /// Its SDO server answers so long after the question; 0: at once.
   void setSdoDelay(std::int64_t delay_ns) { sdo_delay_ns_ = delay_ns; }
   bool owesAnswer() const { return !late_answers_.empty(); }
@@ -48,7 +53,10 @@ class CanopenNode {
   void restartTimers();
 
   /// What it has to say, in order; the caller empties it.
-  std::vector<CanFrame>& outbox() { return outbox_; }
+  std::vector<CanFrame>& outbox() {
+    for (CanFrame& frame : outbox_) frame.flexible = frame.fast = flexible_;
+    return outbox_;
+  }
 
   // Faults on demand.
   void stopHeartbeat(bool stopped) { heartbeat_stopped_ = stopped; }
@@ -122,6 +130,7 @@ class CanopenNode {
   std::array<int, PdoRules::kPdoCount> syncs_{};
   std::array<std::optional<CanFrame>, PdoRules::kPdoCount> last_sent_{};
   std::array<std::int64_t, PdoRules::kPdoCount> sent_ns_{};
+  bool flexible_ = false;
   bool heartbeat_stopped_ = false, truncate_ = false, drop_pdos_ = false, mute_sdo_ = false;
 };
 

@@ -68,9 +68,9 @@ std::string edsText(const ObjectDictionary& d, int node_id, const std::string& p
   out += fmt::format(
       "SimpleBootUpMaster=0\nSimpleBootUpSlave=1\nGranularity=8\nDynamicChannelsSupported=0\n"
       "GroupMessaging=0\nNrOfRXPDO={}\nNrOfTXPDO={}\nLSS_Supported=0\n"
-      "\n[DummyUsage]\nDummy0001=0\nDummy0002=0\nDummy0003=0\nDummy0004=0\nDummy0005=0\nDummy0006="
-      "0\n"
-      "Dummy0007=0\n\n[Comments]\nLines=0\n",
+      "\n[DummyUsage]\nDummy0001=0\nDummy0002=0\nDummy0003=0\nDummy0004=0\nDummy0005=1\nDummy0006="
+      "1\n"
+      "Dummy0007=1\n\n[Comments]\nLines=0\n",
       receive, transmit);
   putList(out, "MandatoryObjects", mandatory);
   putList(out, "OptionalObjects", optional);

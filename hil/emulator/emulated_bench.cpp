@@ -33,7 +33,9 @@ EmulatedBench::EmulatedBench(const EmulatorConfig& config, std::unique_ptr<Parti
       syncs_held_back_(outbox_.size()) {
   for (const EmulatedDriveParameters& p : config.drives) {
     drives_.push_back(std::make_unique<DriveNode>(p));
+    drives_.back()->setFlexible(config.flexible);
   }
+  imu_->setFlexible(config.flexible);
   robot_->enterInitializationMode(kSimStart);
   robot_->exitInitializationMode();
   readRobot();
@@ -60,6 +62,7 @@ bool EmulatedBench::owesAnswer() const {
 void EmulatedBench::onFrame(int bus, const CanFrame& frame) {
   const auto b = static_cast<std::size_t>(bus);
   if (frozen_[b]) return;
+  if (frame.flexible && !config_.flexible) return;  // a classic node destroys it
   heard_[b] = true;
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     if (config_.drive_bus[i] == bus) drives_[i]->onFrame(frame);

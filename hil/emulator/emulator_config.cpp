@@ -52,7 +52,7 @@ void readOptions(ConfigReader& in, const char* key, std::vector<int>& options) {
     }
     options.push_back(static_cast<int>(*value));
   }
-  if (options.empty()) throw InputError(in.at(key) + "must have one value at least");
+  if (options.empty()) throw InputError(in.at(key) + " must have one value at least");
 }
 
 /// What other vendors do otherwise.
@@ -65,7 +65,7 @@ void readDeviations(ConfigReader& in, EmulatedDriveParameters& p) {
       in.integerOr("torque_reference_mNm", static_cast<int>(p.torque_reference_mNm), {1, 1e6});
   p.velocity_bits = in.integerOr("velocity_bits", p.velocity_bits, {16, 32});
   if (p.velocity_bits != 16 && p.velocity_bits != 32) {
-    throw InputError(in.at("velocity_bits") + "must be 16 or 32");
+    throw InputError(in.at("velocity_bits") + " must be 16 or 32");
   }
   p.velocity_unit = in.numberOr("velocity_unit_rad_per_s", p.velocity_unit, {1e-9, 10});
   p.motor_encoder = in.booleanOr("motor_encoder", p.motor_encoder);
@@ -114,10 +114,15 @@ EmulatorConfig readEmulatorConfig(const ConfigNode& tree) {
   ConfigReader in = top.child("emulator");
   for (ConfigReader& bus : in.list("buses")) {
     c.links.push_back(bus.text("link"));
+    const bool flexible = bus.booleanOr("fd", false);
+    if (c.links.size() > 1 && flexible != c.flexible) {
+      throw InputError(bus.at("fd") + " must be the same for all buses");
+    }
+    c.flexible = flexible;
     bus.finish();
   }
   if (c.links.empty() || c.links.size() > 2)
-    throw InputError(in.at("buses") + "must be one or two");
+    throw InputError(in.at("buses") + " must be one or two");
   c.bus_count = static_cast<int>(c.links.size());
   const double last_bus = c.bus_count - 1;
   if (in.has("imu")) {
@@ -137,7 +142,7 @@ EmulatorConfig readEmulatorConfig(const ConfigNode& tree) {
   }
   std::vector<ConfigReader> drives = in.list("drives");
   if (!drives.empty() && drives.size() != 6) {
-    throw InputError(in.at("drives") + "must have six entries, or none for six equal drives");
+    throw InputError(in.at("drives") + " must have six entries, or none for six equal drives");
   }
   for (std::size_t i = 0; i < drives.size(); ++i) {
     c.drive_bus[i] = drives[i].integerOr("bus", 0, {0, last_bus});

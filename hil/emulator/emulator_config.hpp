@@ -49,6 +49,7 @@ struct EmulatorConfig {
   bool stepped = false;
   int bus_count = 1;
   std::vector<std::string> links;  ///< of the ptys, one per bus; or socketcan:...
+  bool flexible = false;           ///< CAN FD on all of them
   std::array<EmulatedDriveParameters, 6> drives;
   std::array<int, 6> drive_bus{};
   int imu_bus = 0, imu_node = 7;

@@ -11,7 +11,20 @@ using namespace sdo_abort;
 
 constexpr std::int64_t kInvalidBit = std::int64_t{1} << 31, kNoRtrBit = std::int64_t{1} << 30,
                        kExtendedBit = std::int64_t{1} << 29;
-constexpr int kMaxMapped = 8, kMaxBits = 64;
+constexpr int kMaxMapped = 8, kMaxBits = 64, kMaxFlexibleBits = 512;
+
+/// Types 0005 to 0007 as objects: bytes of an RPDO that are another node's (CiA 301, 7.4.7.1).
+bool isDummy(std::uint32_t code) { return code >> 16 >= 0x0005 && code >> 16 <= 0x0007; }
+int dummyBits(std::uint16_t index) { return 8 << (index - 0x0005); }
+
+/// The shortest CAN FD frame that holds so many bytes.
+int flexibleLength(int bytes) {
+  for (const int length : {8, 12, 16, 20, 24, 32, 48, 64}) {
+    if (bytes <= 8) return bytes;
+    if (length >= bytes) return length;
+  }
+  return 64;
+}
 
 std::uint16_t communicationIndex(bool transmit, int number) {
   return static_cast<std::uint16_t>((transmit ? 0x1800 : 0x1400) + number);
@@ -86,7 +99,7 @@ int PdoRules::length(bool transmit, int number) const {
   for (int i = 1; i <= dictionary_.value(map); ++i) {
     bits += static_cast<int>(dictionary_.value(map, static_cast<std::uint8_t>(i)) & 0xFF);
   }
-  return bits / 8;
+  return flexible_ ? flexibleLength(bits / 8) : bits / 8;
 }
 
 std::uint32_t PdoRules::judge(std::uint16_t index, std::uint8_t sub, std::int64_t value) const {
@@ -146,13 +159,17 @@ std::uint32_t PdoRules::judgeMapping(bool transmit, int number, std::uint8_t sub
     if (code == 0) return kNoObject;
     bits += static_cast<int>(code & 0xFF);
   }
-  return bits > kMaxBits ? kPdoLength : kNone;
+  return bits > (flexible_ ? kMaxFlexibleBits : kMaxBits) ? kPdoLength : kNone;
 }
 
 std::uint32_t PdoRules::judgeEntry(bool transmit, std::uint32_t code) const {
   if (code == 0) return kNone;  // an entry not in use
   const auto index = static_cast<std::uint16_t>(code >> 16);
   const auto sub = static_cast<std::uint8_t>(code >> 8);
+  if (isDummy(code)) {
+    return transmit ? kNotMappable
+                    : static_cast<int>(code & 0xFF) == dummyBits(index) && sub == 0 ? kNone : kPdoLength;
+  }
   if (!dictionary_.hasIndex(index)) return kNoObject;
   const OdEntry* entry = dictionary_.find(index, sub);
   if (entry == nullptr) return kNoSub;
@@ -173,6 +190,7 @@ CanFrame PdoRules::pack(int number) const {
       frame.data[frame.size++] = static_cast<std::uint8_t>(value & 0xFF);
     }
   }
+  frame.size = static_cast<std::uint8_t>(length(true, number));
   return frame;
 }
 
@@ -181,6 +199,10 @@ void PdoRules::unpack(int number, const CanFrame& frame) {
   std::size_t at = 0;
   for (int i = 1; i <= dictionary_.value(map); ++i) {
     const std::int64_t code = dictionary_.value(map, static_cast<std::uint8_t>(i));
+    if (isDummy(static_cast<std::uint32_t>(code))) {
+      at += static_cast<std::size_t>(code & 0xFF) / 8;
+      continue;
+    }
     OdEntry* entry = dictionary_.find(static_cast<std::uint16_t>(code >> 16),
                                       static_cast<std::uint8_t>(code >> 8 & 0xFF));
     const int bits = static_cast<int>(code & 0xFF);

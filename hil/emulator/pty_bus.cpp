@@ -41,7 +41,7 @@ void makeLink(const std::string& device, const std::string& link) {
 
 }  // namespace
 
-PtyBus::PtyBus(std::string link) {
+PtyBus::PtyBus(std::string link, bool flexible) : adapter_(flexible) {
   if (!link.empty()) {
     requireNoFile(link);
     claim_.emplace(link);

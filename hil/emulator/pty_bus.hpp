@@ -18,7 +18,8 @@ class PtyBus final : public CanBus {
   ///              none. Replaces a link that nobody serves any more, never a file.
   /// @throw OutputError if there is no pty or the link cannot be made; InputError if another
   ///        process serves the link.
-  explicit PtyBus(std::string link);
+  /// @param flexible  whether the adapter has CAN FD
+  explicit PtyBus(std::string link, bool flexible = false);
   ~PtyBus() override;
   PtyBus(const PtyBus&) = delete;
   PtyBus& operator=(const PtyBus&) = delete;

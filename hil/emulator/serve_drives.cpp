@@ -47,7 +47,7 @@ std::vector<std::unique_ptr<CanBus>> openEmulatedBuses(
     if (link.rfind("socketcan:", 0) == 0) {
       buses.push_back(open_socketcan(link));
     } else {
-      buses.push_back(std::make_unique<PtyBus>(link));
+      buses.push_back(std::make_unique<PtyBus>(link, config.flexible));
     }
   }
   return buses;

@@ -9,7 +9,9 @@ namespace ballbot {
 namespace {
 
 constexpr char kOk = '\r', kError = '\a';
-constexpr std::size_t kLongestCommand = 30;
+constexpr std::size_t kLongestCommand = 30, kLongestFlexibleCommand = 140;
+// Bytes behind the length codes 9 to F of CAN FD.
+constexpr int kLongSizes[] = {12, 16, 20, 24, 32, 48, 64};
 constexpr int kStampModulus = 60'000;  // LAWICEL: milliseconds of the minute
 
 bool allHex(const std::string& text) {
@@ -25,7 +27,7 @@ unsigned long hexNumber(const std::string& text) { return std::strtoul(text.c_st
 bool SlcanAdapter::take(char c, std::string& reply, CanFrame& sent) {
   if (c == '\n') return false;  // some terminals send it after CR
   if (c != '\r') {
-    if (line_.size() <= kLongestCommand) line_ += c;
+    if (line_.size() <= (flexible_ ? kLongestFlexibleCommand : kLongestCommand)) line_ += c;
     return false;
   }
   const bool transmitted = act(reply, sent);
@@ -65,6 +67,13 @@ bool SlcanAdapter::act(std::string& reply, CanFrame& sent) {
     case 'r':
     case 'R':
       return transmit(reply, sent);
+    case 'd':
+    case 'D':
+    case 'b':
+    case 'B':
+      return flexible_ ? transmit(reply, sent) : answer(false);
+    case 'Y':  // data bit rate in Mbit/s
+      return answer(flexible_ && !open_ && rest.size() == 1 && rest[0] >= '1' && rest[0] <= '8');
     case 'F':
       if (!rest.empty() || !open_) return answer(false);
       reply += fmt::format("F{:02X}", status_);
@@ -102,12 +111,15 @@ bool SlcanAdapter::transmit(std::string& reply, CanFrame& sent) {
   };
   if (!open_ || listen_only_) return refuse();
   const char kind = line_[0];
-  const bool extended = kind == 'T' || kind == 'R';
+  const bool extended = std::isupper(static_cast<unsigned char>(kind)) != 0;
   const bool remote = kind == 'r' || kind == 'R';
+  const bool fast = kind == 'b' || kind == 'B';
+  const bool flexible = fast || kind == 'd' || kind == 'D';
   const std::size_t digits = extended ? 8 : 3;
   if (line_.size() < digits + 2 || !allHex(line_.substr(1))) return refuse();
-  const int size = line_[digits + 1] - '0';
-  if (size < 0 || size > 8) return refuse();
+  int size = static_cast<int>(hexNumber(line_.substr(digits + 1, 1)));
+  if (size > 8 && !flexible) return refuse();
+  if (size > 8) size = kLongSizes[size - 9];
   const std::string payload = line_.substr(digits + 2);
   if (payload.size() != (remote ? 0U : 2U * static_cast<unsigned>(size))) return refuse();
   const unsigned long id = hexNumber(line_.substr(1, digits));
@@ -117,6 +129,8 @@ bool SlcanAdapter::transmit(std::string& reply, CanFrame& sent) {
   sent.id = static_cast<std::uint32_t>(id);
   sent.extended = extended;
   sent.remote = remote;
+  sent.flexible = flexible;
+  sent.fast = fast;
   sent.size = static_cast<std::uint8_t>(size);
   for (std::size_t i = 0; i < payload.size() / 2; ++i) {
     sent.data[i] = static_cast<std::uint8_t>(hexNumber(payload.substr(2 * i, 2)));
@@ -128,11 +142,15 @@ bool SlcanAdapter::transmit(std::string& reply, CanFrame& sent) {
 
 void SlcanAdapter::show(const CanFrame& f, std::int64_t time_ms, std::string& reply) const {
   if (!open_) return;
-  const char kind = f.remote ? 'r' : 't';
+  const char kind = f.remote ? 'r' : !f.flexible ? 't' : f.fast ? 'b' : 'd';
+  int length = f.size;
+  for (int i = 0; f.size > 8 && i < 7; ++i) {
+    if (kLongSizes[i] == f.size) length = 9 + i;
+  }
   if (f.extended) {
-    reply += fmt::format("{}{:08X}{}", static_cast<char>(std::toupper(kind)), f.id, f.size);
+    reply += fmt::format("{}{:08X}{:X}", static_cast<char>(std::toupper(kind)), f.id, length);
   } else {
-    reply += fmt::format("{}{:03X}{}", kind, f.id, f.size);
+    reply += fmt::format("{}{:03X}{:X}", kind, f.id, length);
   }
   for (int i = 0; !f.remote && i < f.size; ++i) reply += fmt::format("{:02X}", f.data[i]);
   if (stamps_) reply += fmt::format("{:04X}", time_ms % kStampModulus);

@@ -11,6 +11,9 @@ namespace ballbot {
 /// Written apart from the host's codec, so that the two check each other. No file, no clock.
 class SlcanAdapter {
  public:
+  /// @param flexible  whether it has CAN FD, by the commands of CANable adapters
+  explicit SlcanAdapter(bool flexible = false) : flexible_(flexible) {}
+
   /// Takes one character from the host. If it ends a command, `reply` gets the answer appended and,
   /// if the command was to send a frame, the result is true and `sent` holds the frame.
   bool take(char c, std::string& reply, CanFrame& sent);
@@ -30,6 +33,7 @@ class SlcanAdapter {
   bool transmit(std::string& reply, CanFrame& sent);
 
   std::string line_;
+  bool flexible_;
   bool open_ = false, listen_only_ = false, stamps_ = false;
   int rate_ = 8;  // the emulated bus runs at 1 Mbit/s
   std::uint8_t status_ = 0;

@@ -5,6 +5,7 @@
     tables.py estimation SCENARIO...    errors of the estimate, one run a row
     tables.py seeds                     what was required and measured over seeds, of `ballbot reproduce --seeds N --json` on stdin
     tables.py faults                    the table of `ballbot hil --faults --json`, read from stdin
+    tables.py budgets                   how full the buses of a bench are, classic and CAN FD, by `ballbot hil --budget`
     tables.py checks                    that of `ballbot hil --checks --json`
     tables.py commissioning             that of `ballbot hil --commission --faults --json`
 """
@@ -101,6 +102,29 @@ def faults():
     print(f"\n{len(took)} faults in {len(rows)} trials, of which {sum(r['held'] for r in rows)} hold.")
 
 
+def budgets():
+    one_bus = ["--set", "drives=[" + ", ".join(f"{{node: {n}}}" for n in range(1, 7)) + "]"]
+
+    def rates(mbps, buses):
+        return ["--set", "buses=[" + ", ".join([f"{{address: none, fd: {{data_bitrate_kbps: {1000 * mbps}}}}}"] * buses) + "]",
+                *(one_bus if buses == 1 else [])]
+
+    def loads(file, arguments):
+        run = subprocess.run(["ballbot", "hil", f"configs/hil/{file}.yaml", "--budget", "--json", *arguments],
+                             stdout=subprocess.PIPE, text=True, check=True)
+        return [f"{100 * b['nominal']:.0f} % ({100 * b['worst_stuffing']:.0f} %)" for b in json.loads(run.stdout)["buses"]]
+
+    cases = [("classic, 400 Hz", "2", "one each", "bench", []),
+             ("classic, 2.5 kHz", "2", "one each", "bench", ["--set", "cycle_us=400", "--set", "realtime={collect_us: 250, act_us: 300}"])]
+    for mbps in (5, 8):
+        for buses in (1, 2):
+            for shared in (False, True):
+                cases.append((f"CAN FD, data at {mbps} Mbit/s, 2.5 kHz", str(buses), "shared" if shared else "one each", "bench_fd",
+                              [*rates(mbps, buses), "--set", f"shared_outputs={str(shared).lower()}"]))
+    table(["1 Mbit/s", "buses", "torques of a bus", "load of bus 0 (most stuffing)", "bus 1: the arm"],
+          [[name, buses, torques, *(loads(file, arguments) + ["-"])[:2]] for name, buses, torques, file, arguments in cases])
+
+
 def checks():
     table(["check", "the message begins with", "reaction", "bound, cycles", "page"],
           [[f"`{c['name']}`", c["words"], c["reaction"], str(c["bound_cycles"]),
@@ -115,5 +139,5 @@ def commissioning():
 
 
 if __name__ == "__main__":
-    {"messages": messages, "rejected": rejected, "estimation": estimation, "seeds": seeds, "faults": faults, "checks": checks,
+    {"messages": messages, "rejected": rejected, "estimation": estimation, "seeds": seeds, "faults": faults, "budgets": budgets, "checks": checks,
      "commissioning": commissioning}[sys.argv[1]](*sys.argv[2:])

@@ -238,6 +238,58 @@ TEST_F(Node, RemoteAndExtendedFramesMeanNothingToIt) {
   EXPECT_TRUE(drive_.operational());
 }
 
+TEST(CanopenNode, MapsSixtyFourBytesOnCanFdAlone) {
+  for (const bool flexible : {false, true}) {
+    DriveNode drive({});
+    drive.setFlexible(flexible);
+    drive.powerOn();
+    SdoDialogue talk(drive);
+    EXPECT_EQ(talk.write(0x1800, 1, 0xC0000181, 4), 0U);
+    EXPECT_EQ(talk.write(0x1A00, 0, 0, 1), 0U);
+    const std::int64_t codes[] = {0x60410010, 0x60770010, 0x60640020, 0x606C0020, 0x60E40120};
+    std::uint8_t sub = 0;
+    for (const std::int64_t code : codes) EXPECT_EQ(talk.write(0x1A00, ++sub, code, 4), 0U);
+    EXPECT_EQ(talk.write(0x1A00, 0, sub, 1), flexible ? 0U : 0x06040042U) << "16 bytes";
+    if (!flexible) continue;
+    EXPECT_EQ(talk.write(0x1A00, 0, 0, 1), 0U);
+    EXPECT_EQ(talk.write(0x1A00, 6, 0x60740010, 4), 0U);
+    EXPECT_EQ(talk.write(0x1A00, 0, 6, 1), 0U);
+    EXPECT_EQ(talk.write(0x1800, 1, 0x40000181, 4), 0U);
+    drive.forceNmt(0x01);
+    drive.outbox().clear();
+    drive.onSync();
+    ASSERT_FALSE(drive.outbox().empty());
+    const CanFrame frame = drive.outbox().front();
+    EXPECT_EQ(frame.size, 20) << "18 bytes, and two that fill it up";
+    EXPECT_TRUE(isValid(frame));
+    EXPECT_TRUE(frame.flexible && frame.fast);
+  }
+}
+
+TEST(CanopenNode, SkipsWhatIsAnotherNodesInASharedRpdo) {
+  DriveNode drive({});
+  drive.setFlexible(true);
+  drive.powerOn();
+  SdoDialogue talk(drive);
+  EXPECT_EQ(talk.write(0x1400, 1, 0x80000202, 4), 0U) << "off, and another identifier";
+  EXPECT_EQ(talk.write(0x1600, 0, 0, 1), 0U);
+  EXPECT_EQ(talk.write(0x1600, 1, 0x00070020, 4), 0U);
+  EXPECT_EQ(talk.write(0x1600, 2, 0x00060010, 4), 0U);
+  EXPECT_EQ(talk.write(0x1600, 3, 0x60710010, 4), 0U);
+  EXPECT_EQ(talk.write(0x1600, 4, 0x00060020, 4), 0x06040042U) << "type 6 has 16 bits";
+  EXPECT_EQ(talk.write(0x1600, 4, 0x00050008, 4), 0U);
+  EXPECT_EQ(talk.write(0x1600, 0, 4, 1), 0U);
+  EXPECT_EQ(talk.write(0x1400, 1, 0x202, 4), 0U);
+  EXPECT_EQ(talk.write(0x1801, 1, 0xC0000281, 4), 0U);
+  EXPECT_EQ(talk.write(0x1A01, 0, 0, 1), 0U);
+  EXPECT_EQ(talk.write(0x1A01, 1, 0x00070020, 4), 0x06040041U) << "there are none to send";
+  drive.forceNmt(0x01);
+  CanFrame frame{0x202, false, false, 12, {9, 9, 9, 9, 9, 9, 0x34, 0x12, 9}};
+  frame.flexible = frame.fast = true;
+  drive.onFrame(frame);
+  EXPECT_EQ(drive.dictionary().value(0x6071), 0x1234);
+}
+
 TEST(CanopenNode, AnswersSdosLateWhereItIsToldTo) {
   EmulatedDriveParameters p;
   p.sdo_delay_ns = 150'000'000;

@@ -2,6 +2,9 @@
 // would take but mean otherwise, is said before a bus is touched.
 #include "hil/data_sheet_check.hpp"
 
+#include <fstream>
+#include <sstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,6 +34,20 @@ TEST(DataSheetCheck, TheShippedBenchesAgreeWithTheirSheets) {
   EXPECT_THAT(disagreements("bench_realtime.yaml"), ElementsAre());
   EXPECT_THAT(disagreements("vendors/quistal/bench.yaml"), ElementsAre());
   EXPECT_THAT(disagreements("vendors/nebelhorn/bench.yaml"), ElementsAre());
+}
+
+TEST(DataSheetCheck, ASharedRpdoNeedsDummies) {
+  EXPECT_THAT(disagreements("bench_fd.yaml"), ElementsAre());
+  std::ifstream in(kBenches + "ballbot_drive.eds");
+  std::stringstream text;
+  text << in.rdbuf();
+  std::string without = text.str();
+  without.replace(without.find("Dummy0007=1"), 11, "Dummy0007=0");
+  const std::string file = ::testing::TempDir() + "no_dummies.eds";
+  std::ofstream(file) << without;
+  EXPECT_THAT(disagreements("bench_fd.yaml", {"drive_defaults.eds=" + file}),
+              ElementsAre(HasSubstr("0007:00 fills up an RPDO that drives share (shared_outputs), " +
+                                    file + " says Dummy0007=0")));
 }
 
 TEST(DataSheetCheck, SaysAtOnceAllThatTheDriveDoesOtherwise) {

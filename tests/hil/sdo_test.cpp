@@ -15,7 +15,8 @@ class Sdo : public ::testing::Test {
     drive_.outbox().clear();
   }
   std::vector<std::uint8_t> answer(std::array<std::uint8_t, 8> request) {
-    CanFrame f{0x601, false, false, 8, request};
+    CanFrame f{0x601, false, false, 8, {}};
+    std::copy(request.begin(), request.end(), f.data.begin());
     drive_.outbox().clear();
     drive_.onFrame(f);
     if (drive_.outbox().empty()) return {};
@@ -23,7 +24,7 @@ class Sdo : public ::testing::Test {
     drive_.outbox().clear();
     EXPECT_EQ(a.id, 0x581U);
     EXPECT_EQ(a.size, 8);
-    return {a.data.begin(), a.data.end()};
+    return {a.data.begin(), a.data.begin() + a.size};
   }
   DriveNode drive_;
   SdoDialogue talk_;

@@ -33,7 +33,7 @@ std::string errorOf(Call&& call) {
 /// An adapter that answers from a thread of its own, as a real one does.
 class LiveAdapter {
  public:
-  LiveAdapter() : thread_([this] { run(); }) {}
+  explicit LiveAdapter(bool flexible = false) : bus_("", flexible), thread_([this] { run(); }) {}
   ~LiveAdapter() {
     stop_ = true;
     thread_.join();
@@ -49,7 +49,7 @@ class LiveAdapter {
       while (bus_.receive(frame)) bus_.send(frame);
     }
   }
-  PtyBus bus_{""};
+  PtyBus bus_;
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
@@ -72,6 +72,30 @@ TEST(SlcanBus, CarriesFramesOfAllKindsThereAndBack) {
   EXPECT_EQ(bus.counters().received, 2000);
   EXPECT_EQ(bus.counters().malformed, 0);
   EXPECT_TRUE(bus.isUp());
+}
+
+TEST(SlcanBus, CarriesCanFdWhereTheAdapterHasIt) {
+  CanBusSettings fd;
+  fd.data_bitrate_kbps = 5000;
+  LiveAdapter adapter(true), classic;
+  SlcanBus bus(adapter.bus().path(), fd);
+  EXPECT_THAT(bus.describe(), HasSubstr("1000 kbit/s, CAN FD at 5000 kbit/s"));
+  RandomBytes random(5);
+  for (int i = 0; i < 500; ++i) {
+    const CanFrame frame = i % 4 == 0 ? random.frame() : random.flexibleFrame();
+    ASSERT_TRUE(bus.send(frame));
+    CanFrame back;
+    for (int tries = 0; !bus.receive(back); ++tries) {
+      ASSERT_LT(tries, 100);
+      bus.waitReadable(milliseconds(50));
+    }
+    ASSERT_EQ(back, frame);
+  }
+  EXPECT_THAT(errorOf([&] { SlcanBus other(classic.bus().path(), fd); }),
+              HasSubstr("the adapter refuses 'Y5', so it has no CAN FD at that data bit rate"));
+  fd.data_bitrate_kbps = 1500;
+  EXPECT_THAT(errorOf([&] { SlcanBus other(classic.bus().path(), fd); }),
+              HasSubstr("CAN FD data at 1500 kbit/s; slcan adapters have whole Mbit/s, 1 to 8"));
 }
 
 TEST(SlcanBus, RefusesASecondMasterOnTheSameDevice) {

@@ -37,6 +37,20 @@ TEST(SlcanCodec, WritesTheLinesOfTheManual) {
   EXPECT_EQ(encoded({0x800, false, false, 0, {}}), "") << "12 bits are no identifier";
 }
 
+TEST(SlcanCodec, WritesCanFdAsCanableAdaptersDo) {
+  CanFrame frame{0x181, false, false, 12, {0xAB}};
+  frame.flexible = true;
+  EXPECT_EQ(encoded(frame), "d1819AB" + std::string(22, '0') + "\r");
+  frame.fast = frame.extended = true;
+  frame.size = 64;
+  EXPECT_EQ(encoded(frame), "B00000181FAB" + std::string(126, '0') + "\r");
+  SlcanParser parser;
+  EXPECT_EQ(parsed(encoded(frame), parser), std::vector<Item>{Item::kFrame});
+  EXPECT_EQ(parser.frame(), frame);
+  frame.size = 9;
+  EXPECT_EQ(encoded(frame), "");
+}
+
 TEST(SlcanCodec, ReadsFramesRepliesAndFlags) {
   SlcanParser parser;
   EXPECT_EQ(parsed("\r\az\rZ\rt10021133\rV1013\rNA123\rF24\r", parser),

@@ -22,7 +22,17 @@ class RandomBytes {
   }
   std::uint8_t byte() { return static_cast<std::uint8_t>(next() >> 56); }
 
-  /// Any frame that can be sent.
+  /// Any CAN FD frame that can be sent.
+  CanFrame flexibleFrame() {
+    CanFrame f = frame();
+    f.remote = false;
+    f.flexible = true;
+    f.fast = below(2) == 1;
+    f.size = kFlexibleSizes[below(16)];
+    for (int i = 0; i < f.size; ++i) f.data[static_cast<std::size_t>(i)] = byte();
+    return f;
+  }
+  /// Any classic frame that can be sent.
   CanFrame frame() {
     CanFrame f;
     f.extended = below(2) == 1;
