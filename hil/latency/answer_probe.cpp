@@ -4,18 +4,19 @@
 #include <limits>
 
 #include "hil/canopen_codec.hpp"
+#include "hil/frame_bits.hpp"
 
 namespace ballbot {
 namespace {
 
 constexpr std::uint8_t kImuPdos = 0b11;
-constexpr std::int64_t kNsPerMs = 1'000'000;
+constexpr double kNsPerUs = 1000;
 
 }  // namespace
 
 AnswerProbe::AnswerProbe(const BenchConfig& config)
     : now_(config.buses.size()), buses_(config.buses.size()) {
-  for (const BusConfig& bus : config.buses) kbps_.push_back(bus.settings.bitrate_kbps);
+  for (const BusConfig& bus : config.buses) rates_.push_back(bus.settings);
   for (std::size_t i = 0; i < kNodes; ++i) {
     const bool imu = i == kDriveCount;
     bus_of_[i] = imu ? config.imu.bus : config.drives[i].bus;
@@ -24,8 +25,10 @@ AnswerProbe::AnswerProbe(const BenchConfig& config)
   }
 }
 
-std::int64_t AnswerProbe::wireNs(std::size_t bus, std::int64_t bits) const noexcept {
-  return buses_[bus].has_wire ? bits * kNsPerMs / kbps_[bus] : 0;
+std::int64_t AnswerProbe::wireNs(std::size_t bus, const WireBits& bits) const noexcept {
+  if (!buses_[bus].has_wire) return 0;
+  const double us = bits.microseconds(rates_[bus].bitrate_kbps, rates_[bus].data_bitrate_kbps);
+  return static_cast<std::int64_t>(kNsPerUs * us);
 }
 
 void AnswerProbe::onSync(std::int64_t time_ns, std::size_t bus) noexcept {

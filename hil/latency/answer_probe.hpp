@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hil/bench_config.hpp"
+#include "hil/frame_bits.hpp"
 #include "hil/jitter_histogram.hpp"
 
 namespace ballbot {
@@ -51,7 +52,8 @@ class AnswerProbe {
 
  private:
   struct BusNow {
-    std::int64_t sync_ns = 0, bits = 0;
+    std::int64_t sync_ns = 0;
+    WireBits bits;
     bool waiting = false;
   };
   struct NodeNow {
@@ -62,9 +64,9 @@ class AnswerProbe {
   void onSync(std::int64_t time_ns, std::size_t bus) noexcept;
   void onPdo(std::int64_t time_ns, std::size_t bus, std::size_t node, int pdo) noexcept;
   void onAnswers(std::size_t bus) noexcept;
-  std::int64_t wireNs(std::size_t bus, std::int64_t bits) const noexcept;
+  std::int64_t wireNs(std::size_t bus, const WireBits& bits) const noexcept;
 
-  std::vector<int> kbps_;
+  std::vector<CanBusSettings> rates_;
   std::array<int, kNodes> bus_of_{};
   std::array<std::uint32_t, kNodes> id_of_{};
   std::array<std::uint8_t, kNodes> all_pdos_{};
