@@ -7,8 +7,8 @@
 
 namespace ballbot {
 
-// Frames as the programs of other people read them: can-utils (`canplayer -I`, `log2asc -I`),
-// python-can, Wireshark; Vector's tools and whatever imports their text.
+// Frames as the programs of other people read them: can-utils (`canplayer -I`, `log2asc -I`) and
+// python-can; Vector's tools and whatever imports their text.
 
 /// A line of `candump -L`, with the direction as `candump -L -x` has it:
 /// "(0000000001.057500) can0 181#37160A0000000000 R".

@@ -75,7 +75,8 @@ TEST(FlightRecorder, AllocatesNothingWhileItRecordsAlsoBeyondItsCapacity) {
   ASSERT_TRUE(f.engage()) << f.bench.faultText();
   FlightRecorder recorder(f.config, nullptr, 0.05);
   TalkingBus inner;
-  RecordedBus bus(inner, 0, recorder);
+  AnswerProbe probe(f.config);
+  RecordedBus bus(inner, 0, recorder, &probe);
   CanFrame frame;
   const std::int64_t before = allocationCount();
   for (int cycle = 1; cycle <= 200; ++cycle) {
@@ -84,6 +85,7 @@ TEST(FlightRecorder, AllocatesNothingWhileItRecordsAlsoBeyondItsCapacity) {
       bus.receive(frame);
       bus.send(frame);
     }
+    probe.endCycle();
     recorder.endCycle(f.bench, f.bench.record());
   }
   EXPECT_EQ(allocationCount(), before);

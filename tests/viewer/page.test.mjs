@@ -265,14 +265,15 @@ for (const kind of ['replay', 'no-replay', 'failed', 'fault']) {
       await nextFrame(page);
       assert.ok((await overflow(page)) <= 0, `${width}`);
       const wide = await page.$$eval(
-        'canvas, svg, table, button, select, p',
+        // A table of words is as wide as its words and scrolls in a frame of its own.
+        'canvas, svg, table:not(.words), .words-frame, button, select, p',
         (nodes, limit) => nodes.filter((n) => n.getBoundingClientRect().right > limit + 0.5).map((n) => n.outerHTML),
         width,
       );
       assert.deepEqual(wide, []);
       const [plot, body] = await page.$eval('.uplot', (n) => [n.clientWidth, n.parentElement.clientWidth]);
       assert.equal(plot, body);
-      if (kind === 'no-replay') continue;
+      if (kind === 'no-replay' || kind === 'fault') continue;
       const stretch = await page.$eval('.scene canvas', (n) => n.width / n.height / (n.clientWidth / n.clientHeight));
       assert.ok(Math.abs(stretch - 1) < 0.01);
     }
