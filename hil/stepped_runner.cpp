@@ -83,7 +83,8 @@ void SteppedRunner::engage() {
   throwIfFault();
   wants_release_ = true;
   if (!running_) {
-    bringUp(bench_, io_, std::max(1, static_cast<int>(patience_ / kPatiencePerSlowness)), stop_, say_);
+    bringUp(bench_, io_, std::max(1, static_cast<int>(patience_ / kPatiencePerSlowness)), stop_,
+            say_);
     running_ = true;
     sense();
   }
