@@ -7,8 +7,9 @@
 
 namespace ballbot {
 
-/// How a participant that is long at work on one request lets its master know that it lives. Whoever
-/// serves it connects the signal; the participant tells it, as often as it likes, what it is doing.
+/// How a participant that is long at work on one request lets its master know that it lives.
+/// Whoever serves it connects the signal; the participant tells it, as often as it likes, what it
+/// is doing.
 class BusySignal {
  public:
   static constexpr std::chrono::milliseconds kInterval{500};  ///< tells more often are dropped

@@ -81,7 +81,8 @@ class RemoteParticipant final : public Participant {
   mutable RetransmissionTimer timer_;
   mutable LinkStatistics statistics_;
   mutable Bytes received_;
-  mutable WallClock::time_point patient_since_{};  ///< the request, or the last sign of life after it
+  mutable WallClock::time_point
+      patient_since_{};  ///< the request, or the last sign of life after it
   bool reset_pending_ = false;
   SensorFrame sensors_;
   std::optional<TruthFrame> truth_;

@@ -47,8 +47,8 @@ class StepServer {
   /// Ends the session from this side, e.g. after a long silence; the participant is reset when the
   /// next hello comes.
   void drop();
-  /// While a request is acted on: tells the master, between two replies, that it is. Valid until the
-  /// next call.
+  /// While a request is acted on: tells the master, between two replies, that it is. Valid until
+  /// the next call.
   const Bytes* stillWorking(const std::string& doing);
   /// From now on every further request is answered as failed, with these words, and not acted on:
   /// this process is about to end.

@@ -48,12 +48,12 @@ class Reader {
     client_.upload(object, queue_);
     exchange();
     if (client_.status() == SdoClient::Status::kDone) return true;
-    report_.not_given.push_back(
-        client_.status() == SdoClient::Status::kAborted
-            ? fmt::format("{} {}: refused, {:08X} ({})", toText(object), what, client_.abortCode(),
-                          sdoAbortText(client_.abortCode()))
-            : fmt::format("{} {}: no answer within {} ms", toText(object), what,
-                          patience_.count()));
+    report_.not_given.push_back(client_.status() == SdoClient::Status::kAborted
+                                    ? fmt::format("{} {}: refused, {:08X} ({})", toText(object),
+                                                  what, client_.abortCode(),
+                                                  sdoAbortText(client_.abortCode()))
+                                    : fmt::format("{} {}: no answer within {} ms", toText(object),
+                                                  what, patience_.count()));
     return false;
   }
 
@@ -182,8 +182,7 @@ NodeReport reportOf(const std::string& name, int bus, int node, const NamedDataS
   report.bus = bus;
   report.node = node;
   if (named) {
-    report.data_sheet =
-        fmt::format("{}: {}, {}", named->file(), named->vendor(), named->product());
+    report.data_sheet = fmt::format("{}: {}, {}", named->file(), named->vendor(), named->product());
   }
   return report;
 }

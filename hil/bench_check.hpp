@@ -14,7 +14,7 @@ namespace ballbot {
 struct NodeReport {
   std::string name;  ///< "wheel 1", "IMU"
   int bus = 0, node = 0;
-  std::string data_sheet;    ///< "drive.eds: ballbot, emulated drive"; "" if none is named
+  std::string data_sheet;  ///< "drive.eds: ballbot, emulated drive"; "" if none is named
   bool found = false, is_drive = false;
   // Nothing where the node has not given it.
   std::optional<std::string> device, firmware;

@@ -100,7 +100,8 @@ void readDrives(ConfigReader& in, BenchConfig& c) {
       drive.scaling.velocity_unit = kTwoPi / drive.scaling.encoder_counts;
     }
     if (!nodes.insert({drive.bus, drive.node}).second || drive.node == c.master_node) {
-      throw InputError(fmt::format("{} {} is taken on bus {}", d.at("node"), drive.node, drive.bus));
+      throw InputError(
+          fmt::format("{} {} is taken on bus {}", d.at("node"), drive.node, drive.bus));
     }
     if (drive.limits.position_low >= drive.limits.position_high) {
       throw InputError(d.at("position_low_deg") + " must be below position_high_deg");
@@ -184,8 +185,8 @@ void requireSharable(const BenchConfig& c, std::size_t longest, const std::strin
     });
     const std::size_t bytes = static_cast<std::size_t>(drives) * c.outputs[0].bytes();
     if (bytes <= longest) continue;
-    throw InputError(fmt::format("{} would need {} bytes in a frame on bus {}, at most {} fit", where,
-                                 bytes, bus, longest));
+    throw InputError(fmt::format("{} would need {} bytes in a frame on bus {}, at most {} fit",
+                                 where, bytes, bus, longest));
   }
 }
 
@@ -316,18 +317,16 @@ BenchConfig readBenchConfig(const ConfigNode& tree) {
   const bool torque = c.mode == DriveMode::kTorque;
   using Defaults = std::vector<std::vector<const char*>>;
   const std::size_t longest = c.flexible() ? CanFrame::kMaxFlexibleSize : CanFrame::kMaxSize;
-  c.outputs = readMappings(
-      in, "rpdo", longest,
-      torque         ? Defaults{{"60400010", "60710010"}}
-      : c.flexible() ? Defaults{{"60400010", "60B20010", "607A0020", "60B10020"}}
-                     : Defaults{{"60400010", "60B20010", "607A0020"}, {"60B10020"}});
+  c.outputs =
+      readMappings(in, "rpdo", longest,
+                   torque         ? Defaults{{"60400010", "60710010"}}
+                   : c.flexible() ? Defaults{{"60400010", "60B20010", "607A0020", "60B10020"}}
+                                  : Defaults{{"60400010", "60B20010", "607A0020"}, {"60B10020"}});
   c.inputs = readMappings(
       in, "tpdo", longest,
-      c.flexible() ? Defaults{{"60410010", "60770010", "60640020", "606C0020", "60E40120",
-                               "60740010"}}
-                   : Defaults{{"60410010", "60770010", "60640020"},
-                              {"606C0020", "60E40120"},
-                              {"60740010"}});
+      c.flexible()
+          ? Defaults{{"60410010", "60770010", "60640020", "606C0020", "60E40120", "60740010"}}
+          : Defaults{{"60410010", "60770010", "60640020"}, {"606C0020", "60E40120"}, {"60740010"}});
   c.shared_outputs = in.booleanOr("shared_outputs", false);
   requireSharable(c, longest, in.at("shared_outputs"));
   requireMapped(c, tree.where().source + ": ");

@@ -116,12 +116,12 @@ struct BenchConfig {
   bool synchronous_outputs = false;  ///< RPDOs act at the next SYNC instead of on reception
   int master_heartbeat_ms = 5, master_timeout_ms = 25;  ///< the drives' watch over the master
   int drive_heartbeat_ms = 10;
-  int sdo_timeout_ms = 500;    ///< for one answer, in the set-up and in `hil --check`
-  int boot_timeout_ms = 2000;  ///< from a reset to the boot-up message
+  int sdo_timeout_ms = 500;         ///< for one answer, in the set-up and in `hil --check`
+  int boot_timeout_ms = 2000;       ///< from a reset to the boot-up message
   int output_deadline_ms = 15;      ///< RPDO event timer in the drives; 0: none
   std::vector<PdoMapping> outputs;  ///< RPDO1..
-  bool shared_outputs = false;      ///< one RPDO for all drives of a bus, see hil/shared_outputs.hpp
-  std::vector<PdoMapping> inputs;   ///< TPDO1..
+  bool shared_outputs = false;     ///< one RPDO for all drives of a bus, see hil/shared_outputs.hpp
+  std::vector<PdoMapping> inputs;  ///< TPDO1..
   std::vector<BusConfig> buses;
   std::array<DriveConfig, kDriveCount> drives;
   ImuConfig imu;

@@ -169,8 +169,9 @@ void BenchMaster::readImu(int pdo, const CanFrame& frame) noexcept {
     return;
   }
   const std::uint8_t expected = pdo == 1 ? kGyroBytes
-                                : whole  ? kFlexibleSizes[flexibleLengthCode(kAccelBytes + kGyroBytes)]
-                                         : kAccelBytes;
+                                : whole
+                                    ? kFlexibleSizes[flexibleLengthCode(kAccelBytes + kGyroBytes)]
+                                    : kAccelBytes;
   if (frame.size != expected) {
     ++bad_pdos_;
     return;

@@ -94,11 +94,12 @@ void requireRoom(const BenchConfig& config) {
   const std::vector<BusBudget> budgets = busBudget(config);
   for (std::size_t b = 0; b < budgets.size(); ++b) {
     if (budgets[b].nominal <= 1) continue;
-    throw InputError(fmt::format(
-        "bus {} ({}) would need {:.0f} % of its time: {} frames in every cycle of {:.6g} ms. Spread the "
-        "drives over two buses, map less, take CAN FD (`fd:`), or a longer cycle_us",
-        b, config.buses[b].address, 100 * budgets[b].nominal, budgets[b].frames_per_cycle,
-        1e3 * config.cycleSeconds()));
+    throw InputError(
+        fmt::format("bus {} ({}) would need {:.0f} % of its time: {} frames in every cycle of "
+                    "{:.6g} ms. Spread the "
+                    "drives over two buses, map less, take CAN FD (`fd:`), or a longer cycle_us",
+                    b, config.buses[b].address, 100 * budgets[b].nominal,
+                    budgets[b].frames_per_cycle, 1e3 * config.cycleSeconds()));
   }
 }
 

@@ -13,8 +13,8 @@ struct BusBudget {
   double worst = 0;          ///< with the most of them
 };
 
-/// What a bench file asks of its buses while torque is on: SYNC, PDOs, heartbeats, parameters that are
-/// read back. One for every bus.
+/// What a bench file asks of its buses while torque is on: SYNC, PDOs, heartbeats, parameters that
+/// are read back. One for every bus.
 std::vector<BusBudget> busBudget(const BenchConfig& config);
 
 /// @throw InputError if a bus of a real-time bench has less time than its frames need.

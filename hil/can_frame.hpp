@@ -34,11 +34,10 @@ constexpr std::uint8_t flexibleLengthCode(std::size_t bytes) noexcept {
 
 /// Whether the frame can be sent at all: identifier and size within their range.
 constexpr bool isValid(const CanFrame& frame) noexcept {
-  const bool sized =
-      frame.flexible
-          ? !frame.remote && frame.size <= CanFrame::kMaxFlexibleSize &&
-                kFlexibleSizes[flexibleLengthCode(frame.size)] == frame.size
-          : frame.size <= CanFrame::kMaxSize && !frame.fast;
+  const bool sized = frame.flexible
+                         ? !frame.remote && frame.size <= CanFrame::kMaxFlexibleSize &&
+                               kFlexibleSizes[flexibleLengthCode(frame.size)] == frame.size
+                         : frame.size <= CanFrame::kMaxSize && !frame.fast;
   return sized &&
          frame.id <= (frame.extended ? CanFrame::kMaxExtendedId : CanFrame::kMaxStandardId);
 }

@@ -51,7 +51,8 @@ class SheetCheck {
 
   void checkDevice(int bitrate_kbps) {
     if (!sheet_.hasRate(bitrate_kbps) && sheet_.hasRates() && bitrate_kbps != 100) {
-      say(fmt::format("its bus runs at {} kbit/s, which {} does not promise (BaudRate_{}). Set "
+      say(
+          fmt::format("its bus runs at {} kbit/s, which {} does not promise (BaudRate_{}). Set "
                       "bitrate_kbps of the bus",
                       bitrate_kbps, sheet_.file(), bitrate_kbps));
     }
@@ -139,8 +140,9 @@ class SheetCheck {
     const char* direction = transmit ? "TPDO" : "RPDO";
     if (isDummy(object)) {
       if (!transmit && sheet_.hasDummy(object.index)) return;
-      say(fmt::format("{} fills up an RPDO that drives share (shared_outputs), {} says Dummy{:04X}=0",
-                      toText(object), sheet_.file(), object.index));
+      say(fmt::format(
+          "{} fills up an RPDO that drives share (shared_outputs), {} says Dummy{:04X}=0",
+          toText(object), sheet_.file(), object.index));
       return;
     }
     const EdsEntry* e = lookUp(object, transmit ? "in a TPDO" : "in an RPDO");
@@ -225,10 +227,12 @@ std::vector<std::string> checkDataSheets(const BenchConfig& config) {
 void requireDataSheets(const BenchConfig& config) {
   const std::vector<std::string> texts = checkDataSheets(config);
   if (texts.empty()) return;
-  std::string all = fmt::format("{} of the bench file's wishes do not fit the drives' data sheets; "
-                                "no bus was touched:",
-                                texts.size());
+  std::string all = fmt::format(
+      "{} of the bench file's wishes do not fit the drives' data sheets; "
+      "no bus was touched:",
+      texts.size());
   for (const std::string& text : texts) all += "\n  " + text;
+  all += "\ndocs/troubleshooting/bench-data-sheet.md";
   throw InputError(all);
 }
 

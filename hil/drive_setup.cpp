@@ -54,9 +54,9 @@ bool isEmulated(const DataSheet& sheet) {
   return isEmulatedDevice(sheet.vendorNumber().value_or(-1), sheet.productNumber().value_or(0));
 }
 
-/// That the device is the one its data sheet is of, and that it is an emulated one where it must be:
-/// between two steps nobody watches the time, and a drive holds what it was told last. Only drives
-/// whose clock is SYNC may be told so.
+/// That the device is the one its data sheet is of, and that it is an emulated one where it must
+/// be: between two steps nobody watches the time, and a drive holds what it was told last. Only
+/// drives whose clock is SYNC may be told so.
 void requireIdentity(Script& s, const BenchConfig& bench, const NamedDataSheet& data_sheet,
                      std::int64_t emulated_product) {
   const DataSheet* sheet = data_sheet.sheet.get();

@@ -38,7 +38,8 @@ struct SetupStep {
 std::vector<SetupStep> driveSetup(const BenchConfig& bench, const DriveConfig& drive);
 /// The same for the IMU.
 std::vector<SetupStep> imuSetup(const BenchConfig& bench);
-/// What the IMU sends in one frame of CAN FD: the two PDOs it is delivered with, one after the other.
+/// What the IMU sends in one frame of CAN FD: the two PDOs it is delivered with, one after the
+/// other.
 PdoMapping imuMapping();
 
 }  // namespace ballbot

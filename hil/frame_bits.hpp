@@ -21,14 +21,14 @@ struct WireBits {
   }
 };
 
-/// Of a frame without stuff bits that depend on its content, and with as many of them as there can be:
-/// one for every four bits after the first. What bus load is counted in.
+/// Of a frame without stuff bits that depend on its content, and with as many of them as there can
+/// be: one for every four bits after the first. What bus load is counted in.
 struct FrameBits {
   WireBits nominal, worst;
 };
 
-/// ISO 11898-1. Bits at which the rate changes (BRS, CRC delimiter) count as slow ones. A CAN FD frame
-/// without BRS is slow throughout.
+/// ISO 11898-1. Bits at which the rate changes (BRS, CRC delimiter) count as slow ones. A CAN FD
+/// frame without BRS is slow throughout.
 constexpr FrameBits bitsOf(const CanFrame& frame) noexcept {
   constexpr int kDelimiters = 10, kSpace = 3;  // CRC delimiter, acknowledgement, end of frame
   const int payload = frame.remote ? 0 : 8 * frame.size;

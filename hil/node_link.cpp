@@ -143,8 +143,8 @@ std::string NodeLink::progressText() const {
   if (phase_ == Phase::kBooting) return fmt::format("node {}: waiting for its boot-up", node_);
   if (step_ == setup_.size()) return "";
   const SetupStep& step = setup_[step_];
-  return fmt::format("node {}: {} of {}, {} {}", node_, step_, setup_.size(),
-                     toText(step.object), step.what);
+  return fmt::format("node {}: {} of {}, {} {}", node_, step_, setup_.size(), toText(step.object),
+                     step.what);
 }
 
 std::string NodeLink::troubleText() const {
@@ -157,7 +157,8 @@ std::string NodeLink::troubleText() const {
     case NodeTrouble::kReboot:
       return fmt::format("node {} has started anew by itself", node_);
     case NodeTrouble::kLeftOperational:
-      return fmt::format("node {} left operational by itself: it said that it is {}", node_, toText(left_for_));
+      return fmt::format("node {} left operational by itself: it said that it is {}", node_,
+                         toText(left_for_));
     case NodeTrouble::kHeartbeatLost:
       return fmt::format("node {}: no heartbeat for {} cycles", node_, heartbeat_cycles_);
     case NodeTrouble::kEmergency:

@@ -35,7 +35,8 @@ struct PdoField {
 class PdoMapping {
  public:
   PdoMapping() = default;
-  /// @throw InputError if an entry is not 8, 16, 24, 32 or 64 bits wide or all are longer than a frame of
+  /// @throw InputError if an entry is not 8, 16, 24, 32 or 64 bits wide or all are longer than a
+  /// frame of
   ///        CAN FD.
   explicit PdoMapping(std::vector<PdoEntry> entries);
 

@@ -7,8 +7,8 @@
 namespace ballbot {
 
 // Outputs of all drives of a bus in one RPDO, which every one of them receives: each maps its own
-// bytes, and what CiA 301 calls dummies (a data type as an object) in place of the others'. A frame's
-// head and tail are most of its time on CAN FD, so this is what makes room at high rates.
+// bytes, and what CiA 301 calls dummies (a data type as an object) in place of the others'. A
+// frame's head and tail are most of its time on CAN FD, so this is what makes room at high rates.
 
 /// Whether an entry of a mapping is a dummy.
 constexpr bool isDummy(ObjectAddress object) noexcept { return object.index <= 0x0007; }

@@ -34,8 +34,9 @@ char dataRateDigit(const std::string& device, const CanBusSettings& settings) {
   if (settings.data_bitrate_kbps % 1000 == 0 && mbps >= 1 && mbps <= 8) {
     return static_cast<char>('0' + mbps);
   }
-  throw InputError(fmt::format("{}: CAN FD data at {} kbit/s; slcan adapters have whole Mbit/s, 1 to 8",
-                               device, settings.data_bitrate_kbps));
+  throw InputError(
+      fmt::format("{}: CAN FD data at {} kbit/s; slcan adapters have whole Mbit/s, 1 to 8", device,
+                  settings.data_bitrate_kbps));
 }
 
 }  // namespace
@@ -80,16 +81,17 @@ void SlcanBus::command(const std::string& line, bool may_be_refused) {
     if (item == SlcanParser::Item::kRefused) {
       if (may_be_refused) return;
       throw InputError(fmt::format("{}: the adapter refuses '{}'{}", port_.path(), line,
-                                   line[0] == 'Y' ? ", so it has no CAN FD at that data bit rate; "
-                                                    "2 and 5 Mbit/s are common. SocketCAN has CAN FD, too"
-                                                  : ""));
+                                   line[0] == 'Y'
+                                       ? ", so it has no CAN FD at that data bit rate; "
+                                         "2 and 5 Mbit/s are common. SocketCAN has CAN FD, too"
+                                       : ""));
     }
     if (item == SlcanParser::Item::kNone) port_.waitReadable(milliseconds(50));
   }
-  throw InputError(
-      fmt::format("{}: no answer to '{}' within {} ms. Does the adapter speak slcan (LAWICEL)? If it "
-                  "does but acknowledges nothing, say so: `acknowledges: false` for this bus",
-                  port_.path(), line, kReplyTimeout.count()));
+  throw InputError(fmt::format(
+      "{}: no answer to '{}' within {} ms. Does the adapter speak slcan (LAWICEL)? If it "
+      "does but acknowledges nothing, say so: `acknowledges: false` for this bus",
+      port_.path(), line, kReplyTimeout.count()));
 }
 
 bool SlcanBus::send(const CanFrame& frame) noexcept {

@@ -10,12 +10,13 @@
 
 namespace ballbot {
 
-/// A CAN bus behind a serial adapter that speaks the LAWICEL protocol; CAN FD where it also speaks what
-/// CANable adapters have added to it.
+/// A CAN bus behind a serial adapter that speaks the LAWICEL protocol; CAN FD where it also speaks
+/// what CANable adapters have added to it.
 class SlcanBus final : public CanBus {
  public:
   /// Opens the device, closes whatever channel was open, sets the bit rate and opens the channel.
-  /// @param settings  bit rate 10, 20, 50, 100, 125, 250, 500, 800 or 1000 kbit/s. Of an adapter that
+  /// @param settings  bit rate 10, 20, 50, 100, 125, 250, 500, 800 or 1000 kbit/s. Of an adapter
+  /// that
   ///                  acknowledges nothing no answer is expected; whether it is one then shows only
   ///                  by the nodes behind it
   /// @throw InputError as SerialPort, for another bit rate, or if the adapter does not answer.

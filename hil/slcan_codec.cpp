@@ -49,7 +49,7 @@ std::size_t encodeSlcan(const CanFrame& frame, std::array<char, kSlcanLineMax>& 
 
 SlcanParser::Item SlcanParser::take(char c) noexcept {
   if (c == kLineFeed && length_ == 0) return Item::kNone;  // some adapters end lines with CR LF
-  if (c == kBell) {  // also ends a line that was cut short
+  if (c == kBell) {                                        // also ends a line that was cut short
     length_ = 0;
     too_long_ = false;
     return Item::kRefused;

@@ -9,7 +9,8 @@ namespace ballbot {
 /// A CAN bus of the kernel: an interface such as can0. Its bit rates are set with `ip link`.
 class SocketCanBus final : public CanBus {
  public:
-  /// @throw InputError if the kernel has no CAN, or there is no such interface, or it is down, or it is
+  /// @throw InputError if the kernel has no CAN, or there is no such interface, or it is down, or
+  /// it is
   ///        to be CAN FD and is not; the text has the command that mends it.
   explicit SocketCanBus(const std::string& interface, const CanBusSettings& settings = {});
   /// Takes over a socket that carries such frames; it must not block.

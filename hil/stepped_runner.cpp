@@ -87,7 +87,8 @@ void SteppedRunner::throwIfStopped() {
 void SteppedRunner::start() {
   throwIfFault();
   if (running_) return;
-  bringUp(bench_, io_, std::max(1, static_cast<int>(patience_ / kPatiencePerSlowness)), stop_, say_);
+  bringUp(bench_, io_, std::max(1, static_cast<int>(patience_ / kPatiencePerSlowness)), stop_,
+          say_);
   running_ = true;
   sense();
 }

@@ -56,7 +56,7 @@ class PersonAtTerminal final : public CommissioningPerson {
 std::vector<NodeReport> requireNodes(const BenchConfig& config, const std::vector<CanBus*>& buses) {
   std::vector<NodeReport> nodes = checkBench(config, buses);
   if (allGood(nodes)) return nodes;
-  throw InputError("hil: not every node is there and as configured\n" + checkTable(nodes));
+  throw InputError("hil: not every node is there and as configured\n" + checkTable(nodes, {}));
 }
 
 ExitCode conclude(const CommissioningReport& report, bool json) {

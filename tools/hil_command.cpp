@@ -40,7 +40,8 @@ struct HilArguments {
   RecordOptions records;
   double floor_s = 1;
   bool floor_meanwhile = false;
-  bool faults = false, checks = false, check = false, budget = false, keep_serving = false, json = false;
+  bool faults = false, checks = false, check = false, budget = false, keep_serving = false,
+       json = false;
   int random = 0;
   std::uint64_t seed = 1;
 };
@@ -131,10 +132,10 @@ ExitCode showBudget(const HilArguments& a) {
                     {"nominal", b.nominal},
                     {"worst_stuffing", b.worst}});
     if (a.json) continue;
-    fmt::print("bus {}: {} frames in every cycle of {:.6g} ms: load {:.0f} %, {:.0f} % with the most "
-               "stuffing\n",
-               bus++, b.frames_per_cycle, 1e3 * config.cycleSeconds(), 100 * b.nominal,
-               100 * b.worst);
+    fmt::print(
+        "bus {}: {} frames in every cycle of {:.6g} ms: load {:.0f} %, {:.0f} % with the most "
+        "stuffing\n",
+        bus++, b.frames_per_cycle, 1e3 * config.cycleSeconds(), 100 * b.nominal, 100 * b.worst);
   }
   if (a.json) fmt::print("{}\n", jsonText(nlohmann::ordered_json{{"buses", list}}));
   return ExitCode::kPassed;
@@ -262,8 +263,8 @@ ExitCode serveBench(const HilArguments& a) {
     runner.finish();
   }
   nlohmann::ordered_json j = benchJson(runner.bench(), runner.io());
-  j["realtime"] = realtimeJson(runner, before ? &*before : nullptr,
-                               beside ? &beside->finish() : nullptr);
+  j["realtime"] =
+      realtimeJson(runner, before ? &*before : nullptr, beside ? &beside->finish() : nullptr);
   report(j);
   return concludeRecorded(runner, ending, a, facts);
 }
@@ -324,13 +325,16 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
       "  ballbot drives configs/hil/bench.yaml\n"
       "  ballbot hil configs/hil/bench.yaml\n"
       "  ballbot controller configs/scenarios/bench_balance.yaml\n"
-      "When a check fires, its last 20 s are written: every frame, every cycle, a page to look at.\n"
+      "When a check fires, its last 20 s are written: every frame, every cycle, a page to look "
+      "at.\n"
       "  ballbot hil --show-record runs/bench-drive_fault-1.0575s\n"
       "Software is no emergency stop: docs/hil.md.\n"
       "Exit codes: 0 the run ended, 1 a fault did not end as it must (--faults), or\n"
       "commissioning found something wrong, 2 bad input,\n"
-      "3 a check of the bench fired or the controller was lost, 4 a record that was asked for could\n"
-      "not be written, 5 a drive has not said that its torque is off: pull the switch that is named,\n"
+      "3 a check of the bench fired or the controller was lost, 4 a record that was asked for "
+      "could\n"
+      "not be written, 5 a drive has not said that its torque is off: pull the switch that is "
+      "named,\n"
       "130 interrupted.");
   command->callback([&result, a] {
     if (a->checks) {

@@ -104,8 +104,8 @@ class DataSheetReader {
                       std::int64_t high) const {
     const EdsNumber n = number(key, value);
     if (n.plus_node_id || n.value < low || n.value > high) {
-      refuse(value.line, fmt::format("{} is {}, must be {} to {}", key, printableText(value.text),
-                                     low, high));
+      refuse(value.line,
+             fmt::format("{} is {}, must be {} to {}", key, printableText(value.text), low, high));
     }
     return n.value;
   }
@@ -157,11 +157,10 @@ class DataSheetReader {
     for (std::int64_t n = 1; n <= objects; ++n) {
       const Value* v = list->find(fmt::format("{}", n));
       if (v == nullptr) {
-        refuse(count->line, fmt::format("[{}] promises {} objects, has no number {}", list->name,
-                                        objects, n));
+        refuse(count->line,
+               fmt::format("[{}] promises {} objects, has no number {}", list->name, objects, n));
       }
-      const auto index =
-          static_cast<std::uint16_t>(within("an object's index", *v, 1, kMostIndex));
+      const auto index = static_cast<std::uint16_t>(within("an object's index", *v, 1, kMostIndex));
       const Section* section = text_.find(inSmallLetters(fmt::format("{:04x}", index)));
       if (section == nullptr) {
         refuse(v->line, fmt::format("object {:04X} is listed, but there is no section [{:04X}]",
@@ -212,9 +211,10 @@ class DataSheetReader {
       refuse(section.line, "[" + printableText(section.name) + "] is no sub-index of CANopen");
     }
     if (!sheet_.hasIndex(static_cast<std::uint16_t>(*index))) {
-      refuse(section.line, fmt::format("[{}] describes a part of object {:04X}, which is not listed "
-                                       "among the objects",
-                                       printableText(section.name), *index));
+      refuse(section.line,
+             fmt::format("[{}] describes a part of object {:04X}, which is not listed "
+                         "among the objects",
+                         printableText(section.name), *index));
     }
     put(static_cast<std::uint16_t>(*index), static_cast<std::uint8_t>(*sub), section);
   }
@@ -288,8 +288,9 @@ DataSheet DataSheet::parse(std::string_view text, const std::string& file) {
 DataSheet DataSheet::read(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) {
-    throw InputError(path + ": cannot be read. An EDS or DCF file comes with the drive, or from its "
-                            "vendor's site");
+    throw InputError(path +
+                     ": cannot be read. An EDS or DCF file comes with the drive, or from its "
+                     "vendor's site");
   }
   // No more than one byte too many: what is longer is refused anyway.
   std::string text(IniText::kMostBytes + 1, '\0');

@@ -12,7 +12,14 @@ namespace ballbot {
 
 /// Who may do what with an object (CiA 306): kReadWriteInput is rw that TPDOs carry ("rwr"),
 /// kReadWriteOutput rw that RPDOs carry ("rww").
-enum class EdsAccess { kConst, kReadOnly, kWriteOnly, kReadWrite, kReadWriteInput, kReadWriteOutput };
+enum class EdsAccess {
+  kConst,
+  kReadOnly,
+  kWriteOnly,
+  kReadWrite,
+  kReadWriteInput,
+  kReadWriteOutput
+};
 
 /// A number of a data sheet, which may depend on the node: "$NODEID+0x180".
 struct EdsNumber {
@@ -46,8 +53,8 @@ std::string edsTypeName(int data_type);
 const char* edsAccessName(EdsAccess access);
 
 /// An electronic data sheet (EDS) or device configuration file (DCF) of CiA 306: what a vendor says
-/// that a device is and has. Read whole, within bounds, without believing it: every number and name is
-/// checked, objects that are listed must be described.
+/// that a device is and has. Read whole, within bounds, without believing it: every number and name
+/// is checked, objects that are listed must be described.
 class DataSheet {
  public:
   /// @throw InputError "FILE:LINE: what came, what was expected".

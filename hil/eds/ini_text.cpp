@@ -46,8 +46,8 @@ const IniText::Section* IniText::find(const std::string& name) const {
 IniText::IniText(std::string_view text, const std::string& file) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.size() > kMostBytes) {
-    throw InputError(fmt::format("{}: has {} bytes, at most {} are read", file, text.size(),
-                                 kMostBytes));
+    throw InputError(
+        fmt::format("{}: has {} bytes, at most {} are read", file, text.size(), kMostBytes));
   }
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
     text.remove_prefix(kByteOrderMark.size());
@@ -71,8 +71,8 @@ IniText::IniText(std::string_view text, const std::string& file) {
       if (sections_.size() >= kMostSections) refuse("one section too many");
       const auto [it, is_new] = sections_.try_emplace(inSmallLetters(name));
       if (!is_new) {
-        refuse(fmt::format("section [{}] is there already, at line {}", shown(name),
-                           it->second.line));
+        refuse(
+            fmt::format("section [{}] is there already, at line {}", shown(name), it->second.line));
       }
       section = &it->second;
       section->name = std::string(name);

@@ -7,8 +7,8 @@
 
 namespace ballbot {
 
-/// Text as EDS and DCF files have it: sections in brackets, key=value, ';' before a comment. Names of
-/// sections and keys are found in any case. Read strictly and within bounds, for it comes from
+/// Text as EDS and DCF files have it: sections in brackets, key=value, ';' before a comment. Names
+/// of sections and keys are found in any case. Read strictly and within bounds, for it comes from
 /// strangers.
 class IniText {
  public:

@@ -208,7 +208,11 @@ void CanopenNode::sendPdo(int number) {
   last_sent_[n] = frame;
   sent_ns_[n] = now_ns_;
   if (drop_pdos_) return;
-  if (truncate_ && frame.size > 0) --frame.size;
+  if (truncate_ && frame.size > 0) {
+    frame.flexible = flexible_;
+    do --frame.size;  // to the next length that there is
+    while (!isValid(frame));
+  }
   outbox_.push_back(frame);
 }
 

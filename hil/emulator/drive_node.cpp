@@ -303,7 +303,8 @@ DriveOutput DriveNode::wanted() {
   const double turn = kTwoPi / static_cast<double>(parameters_.encoder_counts);
   out.position =
       parameters_.sign * static_cast<double>(d.value(0x607A)) * turn + parameters_.offset;
-  out.velocity = parameters_.sign * static_cast<double>(d.value(0x60B1)) * parameters_.velocityUnit();
+  out.velocity =
+      parameters_.sign * static_cast<double>(d.value(0x60B1)) * parameters_.velocityUnit();
   out.stiffness = static_cast<double>(d.value(0x2010, 1)) * kNmPerMilli;
   out.damping = static_cast<double>(d.value(0x2010, 2)) * kNmPerMilli;
   return out;
@@ -336,7 +337,8 @@ void DriveNode::refresh() {
   const double angle = stuck_ ? stuck_angle_ : feedback_.joint_angle;
   d.set(0x6064, rounded(s * (angle - parameters_.offset) / joint, -kI32, kI32));
   const double fastest = parameters_.velocity_bits == 16 ? kI16 : kI32;
-  d.set(0x606C, rounded(s * feedback_.joint_velocity / parameters_.velocityUnit(), -fastest, fastest));
+  d.set(0x606C,
+        rounded(s * feedback_.joint_velocity / parameters_.velocityUnit(), -fastest, fastest));
   if (parameters_.motor_encoder) {
     d.set(0x60E4, 1,
           rounded(s * (feedback_.motor_angle - parameters_.offset) / motor, -kI32, kI32));

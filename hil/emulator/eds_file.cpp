@@ -61,7 +61,8 @@ std::string edsText(const ObjectDictionary& d, int node_id, const std::string& p
       "\n[DeviceInfo]\nVendorName={}\nVendorNumber=0x{:X}\nProductName={}\nProductNumber=0x{:"
       "X}\n"
       "RevisionNumber=0x{:X}\nOrderCode=0\n",
-      file_name, product, vendor, d.value(0x1018, 1), product, d.value(0x1018, 2), d.value(0x1018, 3));
+      file_name, product, vendor, d.value(0x1018, 1), product, d.value(0x1018, 2),
+      d.value(0x1018, 3));
   for (const int rate : {10, 20, 50, 125, 250, 500, 800, 1000}) {
     out += fmt::format("BaudRate_{}={}\n", rate, rate == 1000 ? 1 : 0);
   }

@@ -59,8 +59,7 @@ void readOptions(ConfigReader& in, const char* key, std::vector<int>& options) {
 void readDeviations(ConfigReader& in, EmulatedDriveParameters& p) {
   p.name = in.textOr("name", p.name);
   // Those of invented devices, so that no real one can be taken for one of these.
-  p.product_code =
-      in.integerOr("product_code", static_cast<int>(p.product_code), {0xBA10, 0xBA1F});
+  p.product_code = in.integerOr("product_code", static_cast<int>(p.product_code), {0xBA10, 0xBA1F});
   p.torque_reference_mNm =
       in.integerOr("torque_reference_mNm", static_cast<int>(p.torque_reference_mNm), {1, 1e6});
   p.velocity_bits = in.integerOr("velocity_bits", p.velocity_bits, {16, 32});
@@ -84,8 +83,8 @@ void readDriveValues(ConfigReader& in, EmulatedDriveParameters& p) {
       in.integerOr("motor_encoder_counts", static_cast<int>(p.motor_encoder_counts), {16, 1e8});
   p.sign = in.numberOr("sign", p.sign, {-1, 1});
   constexpr std::int64_t kMs = 1'000'000;
-  p.sdo_delay_ns = kMs * in.integerOr("sdo_delay_ms", static_cast<int>(p.sdo_delay_ns / kMs),
-                                      {0, 10'000});
+  p.sdo_delay_ns =
+      kMs * in.integerOr("sdo_delay_ms", static_cast<int>(p.sdo_delay_ns / kMs), {0, 10'000});
   readDeviations(in, p);
   p.offset = kRadPerDeg * in.numberOr("offset_deg", p.offset / kRadPerDeg, {-3600, 3600});
 }

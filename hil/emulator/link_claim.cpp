@@ -25,7 +25,8 @@ std::string holderOf(int descriptor) {
 
 /// Whether `path` still names the file that was opened: its owner may have taken it away.
 bool isStill(const std::string& path, int descriptor) {
-  struct stat opened {}, named {};
+  struct stat opened {
+  }, named{};
   return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &named) == 0 &&
          opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
 }

@@ -4,11 +4,12 @@
 
 namespace ballbot {
 
-/// That this process, and no other, serves a link: a lock on the file LINK.lock, in which its number
-/// stands. The lock ends with the process, however it ends.
+/// That this process, and no other, serves a link: a lock on the file LINK.lock, in which its
+/// number stands. The lock ends with the process, however it ends.
 class LinkClaim {
  public:
-  /// @throw InputError naming the process that serves the link; OutputError if the lock's file cannot
+  /// @throw InputError naming the process that serves the link; OutputError if the lock's file
+  /// cannot
   ///        be made.
   explicit LinkClaim(const std::string& link);
   ~LinkClaim();

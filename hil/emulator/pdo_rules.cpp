@@ -167,8 +167,9 @@ std::uint32_t PdoRules::judgeEntry(bool transmit, std::uint32_t code) const {
   const auto index = static_cast<std::uint16_t>(code >> 16);
   const auto sub = static_cast<std::uint8_t>(code >> 8);
   if (isDummy(code)) {
-    return transmit ? kNotMappable
-                    : static_cast<int>(code & 0xFF) == dummyBits(index) && sub == 0 ? kNone : kPdoLength;
+    return transmit                                                        ? kNotMappable
+           : static_cast<int>(code & 0xFF) == dummyBits(index) && sub == 0 ? kNone
+                                                                           : kPdoLength;
   }
   if (!dictionary_.hasIndex(index)) return kNoObject;
   const OdEntry* entry = dictionary_.find(index, sub);

@@ -9,8 +9,8 @@
 namespace ballbot {
 
 /// Objects 1400 to 1403 with 1600 to 1603, and 1800 to 1803 with 1A00 to 1A03 of an emulated node:
-/// what may be written when (CiA 301, 7.5.2.35 to 38), and the packing of frames. RPDOs may skip bytes by
-/// mapping the types 0005 to 0007.
+/// what may be written when (CiA 301, 7.5.2.35 to 38), and the packing of frames. RPDOs may skip
+/// bytes by mapping the types 0005 to 0007.
 class PdoRules {
  public:
   static constexpr int kPdoCount = 4;
@@ -32,7 +32,8 @@ class PdoRules {
   /// Whether a transmit PDO is also sent when a remote frame asks for it (bit 30 clear).
   bool onRequest(int number) const;
   int transmission(bool transmit, int number) const;
-  /// Bytes of the frame: those of the objects, and on CAN FD what fills it up to a length that it has.
+  /// Bytes of the frame: those of the objects, and on CAN FD what fills it up to a length that it
+  /// has.
   int length(bool transmit, int number) const;
 
   CanFrame pack(int number) const;

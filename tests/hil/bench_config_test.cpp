@@ -59,7 +59,8 @@ TEST(BenchConfig, DrivesOfABusShareAnRpdoWhereItHasRoom) {
 }
 
 TEST(BenchConfig, NamesTheKeyAndWhatItMustBe) {
-  EXPECT_THAT(refusal("bench.yaml", {"drive_defaults.sign=0.5"}), HasSubstr(": sign must be 1 or -1"));
+  EXPECT_THAT(refusal("bench.yaml", {"drive_defaults.sign=0.5"}),
+              HasSubstr(": sign must be 1 or -1"));
   EXPECT_THAT(refusal("bench.yaml", {"drives.1.node=1"}), HasSubstr(": node 1 is taken on bus 0"));
   EXPECT_THAT(refusal("bench.yaml", {"drives=[{node: 1}]"}),
               HasSubstr(": drives has 1 entries, must be 6: wheels 1 to 3"));
@@ -84,8 +85,9 @@ TEST(BusBudget, IsWhatTheFramesOfACycleNeed) {
 
 TEST(BusBudget, ARealBenchMustHaveRoomForItsFrames) {
   EXPECT_EQ(refusal("bench_fd.yaml", {"stepped=false"}), "no error");
-  EXPECT_THAT(refusal("bench_realtime.yaml", {"cycle_us=400", "realtime={collect_us: 200, act_us: 300}"}),
-              HasSubstr("bus 0 (slcan:/tmp/ballbot-can0) would need 3"));
+  EXPECT_THAT(
+      refusal("bench_realtime.yaml", {"cycle_us=400", "realtime={collect_us: 200, act_us: 300}"}),
+      HasSubstr("bus 0 (slcan:/tmp/ballbot-can0) would need 3"));
   EXPECT_EQ(refusal("bench_realtime.yaml", {}), "no error");
 }
 

@@ -125,8 +125,9 @@ BenchRun runBench(const Scenario& scenario, const ConfigNode& tree, bool over_lc
   EXPECT_EQ(runner.bench().safety().state(), SafetyState::kDisabled) << runner.bench().faultText();
   run.saturated = runner.bench().saturatedCycles();
   const CanBusSettings& bus = config.buses[0].settings;
-  run.bus_load = runner.io().load(0).nominal.microseconds(bus.bitrate_kbps, bus.data_bitrate_kbps) /
-                 (static_cast<double>(runner.bench().master().cycle()) * config.cycleSeconds() * 1e6);
+  run.bus_load =
+      runner.io().load(0).nominal.microseconds(bus.bitrate_kbps, bus.data_bitrate_kbps) /
+      (static_cast<double>(runner.bench().master().cycle()) * config.cycleSeconds() * 1e6);
   // The set-up is in what was counted, and rounding of the heartbeats' periods.
   EXPECT_NEAR(run.bus_load, busBudget(config)[0].nominal, 0.06) << "what the bench file promises";
   drives.join();
@@ -149,7 +150,8 @@ TEST(BenchScenario, BalancesOverLcmAndPtyAndIsTheSameTwice) {
   EXPECT_LT(first.largest_tilt, 0.17) << "rad, with the 0.2 s at the end that are only damped";
   EXPECT_GT(first.torques.back().norm(), 0);
   expectSameCommands(first, runBench(scenario, benchFile("bench.yaml", {}), true));
-  EXPECT_LT(first.bus_load, 0.62) << "of bus 0 at 1 Mbit/s: three drives with three PDOs each, and the IMU";
+  EXPECT_LT(first.bus_load, 0.62)
+      << "of bus 0 at 1 Mbit/s: three drives with three PDOs each, and the IMU";
   RecordProperty("bus_load_permille", static_cast<int>(1000 * first.bus_load));
 }
 
@@ -158,8 +160,8 @@ TEST(BenchScenario, BalancesOverLcmAndPtyAndIsTheSameTwice) {
 TEST(BenchScenario, BalancesWithTheDrivesOfOtherVendors) {
   const Scenario scenario = loadScenario(kConfigs + "scenarios/bench_balance.yaml", {});
   for (const std::string vendor : {"quistal", "nebelhorn"}) {
-    const ConfigNode tree = benchFile("vendors/" + vendor + "/bench.yaml",
-                                      {"emulator.drive_defaults.sdo_delay_ms=2"});
+    const ConfigNode tree =
+        benchFile("vendors/" + vendor + "/bench.yaml", {"emulator.drive_defaults.sdo_delay_ms=2"});
     const BenchRun run = runBench(scenario, tree, false);
     EXPECT_EQ(run.torques.size(), 1601U) << vendor << ": 4 s at 400 Hz";
     EXPECT_LT(run.largest_tilt, 0.17) << vendor << ", rad";

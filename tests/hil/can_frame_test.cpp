@@ -86,8 +86,8 @@ TEST(CanFrame, BitsAreThoseOfAnEncoder) {
 // The most stuff bits that any identifier and any data can have, found by trying: the bound is not
 // missed by more than the few bits that no frame is free to choose.
 TEST(CanFrame, TheBoundOfStuffingIsNearlyReached) {
-  for (const std::uint8_t size : {std::uint8_t{0}, std::uint8_t{8}, std::uint8_t{20},
-                                  std::uint8_t{64}}) {
+  for (const std::uint8_t size :
+       {std::uint8_t{0}, std::uint8_t{8}, std::uint8_t{20}, std::uint8_t{64}}) {
     for (const bool fd : {false, true}) {
       if (!fd && size > 8) continue;
       CanFrame frame = fd ? flexible(0, size) : CanFrame{0, false, false, size, {}};

@@ -80,12 +80,13 @@ class BitEncoder {
     put(f.size, 4);
     for (int i = 0; !f.remote && i < f.size; ++i) put(f.data[static_cast<std::size_t>(i)], 8);
     put(crc(raw_, 15, 0x4599, 0), 15);
-    plain(1 + 1 + 1 + 7 + 3);  // delimiter, acknowledgement and its delimiter, end, interframe space
+    plain(1 + 1 + 1 + 7 +
+          3);  // delimiter, acknowledgement and its delimiter, end, interframe space
   }
 
   void encodeFlexible(const CanFrame& f) {
     identifier(f);
-    put(0, 1);  // RRS
+    put(0, 1);                   // RRS
     if (!f.extended) put(0, 1);  // IDE
     put(1, 1);                   // FDF
     put(0, 1);                   // res
@@ -105,8 +106,8 @@ class BitEncoder {
     field.push_back(((gray ^ gray >> 1 ^ gray >> 2) & 1) != 0);
     checked.insert(checked.end(), field.begin(), field.end());
     const int width = f.size <= 16 ? 17 : 21;
-    const std::uint32_t sum = width == 17 ? crc(checked, 17, 0x1685B, 1U << 16)
-                                          : crc(checked, 21, 0x102899, 1U << 20);
+    const std::uint32_t sum =
+        width == 17 ? crc(checked, 17, 0x1685B, 1U << 16) : crc(checked, 21, 0x102899, 1U << 20);
     for (int i = width - 1; i >= 0; --i) field.push_back((sum >> i & 1U) != 0);
     for (std::size_t i = 0; i < field.size(); ++i) plain(i % 4 == 0 ? 2 : 1);
     is_fast_ = false;
@@ -123,9 +124,9 @@ inline BitStream encodeBits(const CanFrame& frame, bool stuffing) {
   return BitEncoder(stuffing).encode(frame);
 }
 
-/// The largest number of stuff bits that a frame with an 11-bit identifier of this kind and size can
-/// have, over all identifiers, data and (of a classic frame) checksums: the longest way through the
-/// states (last bit, length of its run).
+/// The largest number of stuff bits that a frame with an 11-bit identifier of this kind and size
+/// can have, over all identifiers, data and (of a classic frame) checksums: the longest way through
+/// the states (last bit, length of its run).
 inline int mostStuffBits(const CanFrame& f) {
   // 0 and 1: fixed; 2: free to choose.
   std::vector<int> bits{0};
