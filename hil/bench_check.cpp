@@ -2,67 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "hil/canopen_codec.hpp"
 #include "hil/cia402.hpp"
 #include "hil/drive_setup.hpp"
-#include "hil/sdo_client.hpp"
+#include "hil/sdo_exchange.hpp"
 
 namespace ballbot {
 namespace {
 
-using WallClock = std::chrono::steady_clock;
-
-/// SDO uploads from one node over one bus.
-class Reader {
- public:
-  Reader(CanBus& bus, int node, std::chrono::milliseconds patience)
-      : bus_(bus), node_(node), patience_(patience) {}
-
-  std::optional<std::int64_t> number(std::uint16_t index, std::uint8_t sub = 0) {
-    if (!upload(index, sub)) return std::nullopt;
-    return static_cast<std::int64_t>(
-        getLittleEndian(client_.data(), std::min<std::size_t>(client_.size(), 8)));
-  }
-  std::string text(std::uint16_t index) {
-    if (!upload(index, 0)) return "";
-    return {reinterpret_cast<const char*>(client_.data()), client_.size()};
-  }
-
- private:
-  bool upload(std::uint16_t index, std::uint8_t sub) {
-    client_.upload({index, sub}, queue_);
-    const auto until = WallClock::now() + patience_;
-    CanFrame frame;
-    while (client_.status() == SdoClient::Status::kBusy) {
-      for (const CanFrame& out : queue_) bus_.send(out);
-      queue_.clear();
-      const auto left = until - WallClock::now();
-      if (left <= WallClock::duration::zero()) break;
-      bus_.waitReadable(left);
-      bool any = false;
-      while (bus_.receive(frame)) {
-        any = true;
-        client_.onFrame(frame, queue_);
-      }
-      if (!any && bus_.descriptor() < 0) break;  // a bus in this process has nothing more to say
-    }
-    for (const CanFrame& out : queue_) bus_.send(out);
-    queue_.clear();
-    return client_.status() == SdoClient::Status::kDone;
-  }
-
-  CanBus& bus_;
-  int node_;
-  std::chrono::milliseconds patience_;
-  SdoClient client_{node_, 1 << 20};
-  FrameQueue queue_;
-};
-
-void readIdentity(Reader& reader, NodeReport& report) {
+void readIdentity(SdoExchange& reader, NodeReport& report) {
   report.found = reader.number(0x1000).has_value();
   if (!report.found) return;
   report.device = reader.text(0x1008);
@@ -79,7 +30,7 @@ void compare(NodeReport& report, const char* what, double is, double configured)
       fmt::format("{} is {:.6g}, configured {:.6g}", what, is, configured));
 }
 
-void readDrive(Reader& reader, const DriveConfig& drive, const BenchConfig& config,
+void readDrive(SdoExchange& reader, const DriveConfig& drive, const BenchConfig& config,
                NodeReport& report) {
   const std::int64_t type = reader.number(0x1000).value_or(0);
   if ((type & 0xFFFF) != 402) {
@@ -125,7 +76,7 @@ std::vector<NodeReport> checkBench(const BenchConfig& config, const std::vector<
     report.name = drive.name;
     report.bus = drive.bus;
     report.node = drive.node;
-    Reader reader(*buses[static_cast<std::size_t>(drive.bus)], drive.node, patience);
+    SdoExchange reader(*buses[static_cast<std::size_t>(drive.bus)], drive.node, patience);
     readIdentity(reader, report);
     if (report.found) readDrive(reader, drive, config, report);
     reports.push_back(report);
@@ -134,7 +85,7 @@ std::vector<NodeReport> checkBench(const BenchConfig& config, const std::vector<
   imu.name = "IMU";
   imu.bus = config.imu.bus;
   imu.node = config.imu.node;
-  Reader reader(*buses[static_cast<std::size_t>(imu.bus)], imu.node, patience);
+  SdoExchange reader(*buses[static_cast<std::size_t>(imu.bus)], imu.node, patience);
   readIdentity(reader, imu);
   if (imu.found) {
     compare(imu, "accelerometer resolution [m/s^2]",
