@@ -75,7 +75,8 @@ std::vector<Excitation> blocked(const ExcitationPlan& plan, double period) {
   return out;
 }
 
-void requireAllowed(const ExcitationPlan& plan, const DriveConfig& drive, double period) {
+void requireAllowed(const ExcitationPlan& plan, const DriveConfig& drive,
+                    const SafetyConfig& safety, double period) {
   if (plan.amplitude_Nm > drive.limits.torque) {
     throw InputError(fmt::format("identify: {} Nm exceed the limit of {}, {} Nm", plan.amplitude_Nm,
                                  drive.name, drive.limits.torque));
@@ -85,6 +86,13 @@ void requireAllowed(const ExcitationPlan& plan, const DriveConfig& drive, double
         fmt::format("identify: {} to {} Hz; must lie between 0 and half the bus rate, "
                     "{} Hz",
                     plan.low_Hz, plan.high_Hz, 0.5 / period));
+  }
+  const double ramp_s = safety.ramp_cycles * period, settle_s = std::min(kSettle_s, plan.record_s);
+  if (ramp_s > settle_s) {
+    throw InputError(fmt::format(
+        "identify: torque grows over ramp_ms, {:.3g} s, longer than the {:.3g} s in which a record "
+        "settles; make ramp_ms shorter or --record-s longer",
+        ramp_s, settle_s));
   }
   if (plan.records < 2) throw InputError("identify: at least two records, the first one settles");
 }
@@ -124,7 +132,7 @@ std::vector<double> multisine(const std::vector<int>& lines, int length, double 
 std::vector<Excitation> excitationsFor(Posture posture, const ExcitationPlan& plan,
                                        const BenchConfig& bench) {
   const double period = bench.cycleSeconds();
-  requireAllowed(plan, bench.drives.at(static_cast<std::size_t>(plan.drive)), period);
+  requireAllowed(plan, bench.drives.at(static_cast<std::size_t>(plan.drive)), bench.safety, period);
   const double part = kHeldOutShare, a = plan.amplitude_Nm, travel = plan.travel_rad;
   switch (posture) {
     case Posture::kBlocked:

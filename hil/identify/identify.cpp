@@ -144,7 +144,11 @@ Identification identify(const std::vector<Record>& records, const IdentifyOption
     out.loop = fitLoop(lines, out.balance.value, k0, response.period);
     const DriveLoop loop(out.balance.value, out.loop.value, k0);
     out.points = linearPoints(lines, loop, k0);
-    for (MomentumBalance& b : balances) takeImagesOff(b, loop);
+    for (std::size_t i = 0; i < balances.size(); ++i) {
+      takeImagesOff(balances[i], loop);
+      if (round > 0 || balances[i].record().posture == Posture::kBlocked) continue;
+      balances[i].leaveOutFlanks(out.balance.zeros[i], out.balance.value[kBacklash]);
+    }
   }
   fitResponses(out, response.period);
   out.figures = figuresOf(out.balance, out.loop, k0, back_driven);

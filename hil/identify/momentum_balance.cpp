@@ -10,6 +10,8 @@ namespace ballbot {
 namespace {
 
 using Weights = std::vector<double>;
+constexpr double kFlankSigmas = 3;
+constexpr int kFewestClear = 200;  // equations away from the flanks
 
 /// Hann window over 2 half + 1 samples, of unit sum.
 Weights lowPass(int half) {
@@ -96,10 +98,12 @@ MomentumBalance::MomentumBalance(const Record& record, double least_speed, int h
     centres_.push_back(centre);
     acceleration_.push_back(weighted(second, record.motor_angle, centre - reach));
   }
-  weighTorque(record.motor_torque);
+  weighTorque();
 }
 
-void MomentumBalance::weighTorque(const std::vector<double>& torque) {
+void MomentumBalance::weighTorque() {
+  std::vector<double> torque = record_->motor_torque;
+  for (std::size_t n = 0; n < excess_.size(); ++n) torque[n] -= excess_[n];
   const int reach = static_cast<int>(torque_weights_.size()) / 2 - 1;
   torque_.clear();
   for (const int centre : centres_) {
@@ -108,9 +112,37 @@ void MomentumBalance::weighTorque(const std::vector<double>& torque) {
 }
 
 void MomentumBalance::correctTorque(const std::vector<double>& excess) {
-  std::vector<double> torque = record_->motor_torque;
-  for (std::size_t n = 0; n < torque.size(); ++n) torque[n] -= excess[n];
-  weighTorque(torque);
+  excess_ = excess;
+  weighTorque();
+}
+
+// Second differences of a slow deflection are those of its noise, six times the variance.
+double MomentumBalance::deflectionNoise() const {
+  double sum = 0;
+  for (std::size_t n = 1; n + 1 < deflection_.size(); ++n) {
+    sum += std::pow(deflection_[n - 1] - 2 * deflection_[n] + deflection_[n + 1], 2);
+  }
+  return std::sqrt(sum / (6 * static_cast<double>(deflection_.size())));
+}
+
+void MomentumBalance::leaveOutFlanks(double zero, double backlash) {
+  const double width = 0.5 * std::abs(backlash) + kFlankSigmas * deflectionNoise();
+  const int reach = static_cast<int>(inner_weights_.size()) / 2;
+  std::vector<int> centres;
+  std::vector<double> acceleration;
+  for (std::size_t i = 0; i < centres_.size(); ++i) {
+    bool clear = true;
+    for (int n = centres_[i] - reach; n <= centres_[i] + reach; ++n) {
+      clear = clear && std::abs(deflection_[static_cast<std::size_t>(n)] - zero) > width;
+    }
+    if (!clear) continue;
+    centres.push_back(centres_[i]);
+    acceleration.push_back(acceleration_[i]);
+  }
+  if (static_cast<int>(centres.size()) < kFewestClear) return;
+  centres_ = centres;
+  acceleration_ = acceleration;
+  weighTorque();
 }
 
 MomentumBalance::Prediction MomentumBalance::predict(const BalanceVector& p, double zero) const {

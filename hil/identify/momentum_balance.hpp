@@ -69,17 +69,23 @@ class MomentumBalance {
   Eigen::VectorXd residuals(const Prediction& prediction) const;
   /// The mean deflection, to begin with [rad].
   double meanDeflection() const;
+  /// Leaves out equations that see a deflection within half the backlash, and three standard
+  /// deviations of the joint encoder's noise, of the zero: around a flank noise does not average
+  /// out. Nothing is left out where too little would remain.
+  void leaveOutFlanks(double zero, double backlash);
   /// What must be taken off the measured motor torque, one value a sample [N m].
   void correctTorque(const std::vector<double>& excess);
 
  private:
-  void weighTorque(const std::vector<double>& torque);
+  void weighTorque();
+  double deflectionNoise() const;
 
   const Record* record_;
   std::vector<double> velocity_, rate_, deflection_;  ///< one a sample
   std::vector<double> inner_weights_, torque_weights_;
   std::vector<int> centres_;
   std::vector<double> acceleration_, torque_;  ///< one an equation
+  std::vector<double> excess_;  ///< of the measured motor torque, one a sample
 };
 
 /// Rate of a signal by five samples, right up to the fourth order; zero at both ends.

@@ -43,11 +43,6 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  void rampUp(double direction, const Excitation& first) {
-    const int ramp = runner_.bench().config().safety.ramp_cycles;
-    for (int n = 0; n < ramp; ++n) step(torqueFor(first, direction, 0));
-  }
-
   Record record(const Excitation& e, Posture posture, double direction) {
     Record r;
     r.name = e.name;
@@ -83,7 +78,8 @@ class Session {
     const double torque =
         kStiffness * (start_ + direction * e.value[i] - sample_->joint_angle[drive()]) +
         kDamping * (direction * rate - sample_->joint_velocity[drive()]);
-    return std::clamp(torque, -plan_.amplitude_Nm, plan_.amplitude_Nm);
+    // Softly, since the bench takes a command that stays the same for one that hangs.
+    return plan_.amplitude_Nm * std::tanh(torque / plan_.amplitude_Nm);
   }
 
   void step(double torque) {
@@ -145,7 +141,6 @@ std::vector<Record> takeRecords(BenchRunner& runner, Posture posture, const Exci
                                              session.start(), plan.travel_rad)
                                : 1;
   std::vector<Record> records;
-  session.rampUp(direction, excitations.front());
   for (const Excitation& e : excitations) {
     if (e.needs_current && !showsCurrent(records)) continue;
     records.push_back(session.record(e, posture, direction));

@@ -84,6 +84,14 @@ TEST(IdentifyDrive, KeepsToTheLimits) {
     EXPECT_THAT(e.what(), HasSubstr("5 Nm exceed the limit of wheel 1, 4 Nm"));
   }
   plan = {};
+  plan.record_s = 0.05;
+  try {
+    takeRecords(stand.runner, Posture::kBlocked, plan);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("torque grows over ramp_ms, 0.1 s, longer than the 0.05 s"));
+  }
+  plan = {};
   plan.high_Hz = 200;
   EXPECT_THROW(takeRecords(stand.runner, Posture::kBlocked, plan), InputError);
 }
