@@ -16,6 +16,7 @@ namespace {
 constexpr double kSlowLow_Hz = 5, kSlowHigh_Hz = 16;
 constexpr int kSlowLines = 7;
 constexpr double kCorner_Hz = 20;
+constexpr double kScatter = 0.3819660113;  // turns; no multiple of its squares comes near another
 constexpr double kFree_s = 8, kBackDriven_s = 12, kHeldOutShare = 0.5, kSettle_s = 1;
 /// Two swings: share of the amplitude, frequency. Of the free output, as angles; and of the torque
 /// while the output is turned.
@@ -65,13 +66,17 @@ std::vector<Excitation> blocked(const ExcitationPlan& plan, double period) {
   const auto slow = linesBetween(std::min(kSlowLow_Hz, plan.high_Hz),
                                  std::min(kSlowHigh_Hz, plan.high_Hz), kSlowLines, plan.record_s);
   const double a = plan.amplitude_Nm, corner = kCorner_Hz * plan.record_s;
+  const auto shape = [&](const std::vector<int>& lines, Phases phases) {
+    return multisine(lines, length, corner, phases);
+  };
+  const int n = plan.records;
   std::vector<Excitation> out;
-  out.push_back(
-      periodic("response", multisine(wide, length, corner, false), a, plan.records, false));
-  out.push_back(periodic("response, held out", multisine(wide, length, corner, true), a, 2, true));
-  out.push_back(periodic("spring", multisine(slow, length, corner, false), a, plan.records, false));
-  out.push_back(periodic("spring, held out", multisine(slow, length, corner, true), a, 2, true));
-  out[2].needs_current = out[3].needs_current = true;
+  out.push_back(periodic("response", shape(wide, Phases::kSchroeder), a, n, false));
+  out.push_back(periodic("response, mirrored", shape(wide, Phases::kMirrored), a, n, false));
+  out.push_back(periodic("response, held out", shape(wide, Phases::kScattered), a, 2, true));
+  out.push_back(periodic("spring", shape(slow, Phases::kSchroeder), a, n + 1, false));
+  out.push_back(periodic("spring, held out", shape(slow, Phases::kMirrored), a, 2, true));
+  out[3].needs_current = out[4].needs_current = true;
   return out;
 }
 
@@ -111,7 +116,7 @@ std::vector<int> linesBetween(double low_Hz, double high_Hz, int count, double r
 }
 
 std::vector<double> multisine(const std::vector<int>& lines, int length, double corner,
-                              bool mirrored) {
+                              Phases phases) {
   std::vector<double> signal(static_cast<std::size_t>(length));
   const auto count = static_cast<double>(lines.size());
   double peak = 0;
@@ -119,7 +124,10 @@ std::vector<double> multisine(const std::vector<int>& lines, int length, double 
     double sum = 0;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const auto k = static_cast<double>(i);
-      const double phase = (mirrored ? kPi : -kPi) * k * (k + 1) / count;
+      const double schroeder = -kPi * k * (k + 1) / count;
+      const double phase = phases == Phases::kSchroeder  ? schroeder
+                           : phases == Phases::kMirrored ? -schroeder
+                                                         : kTwoPi * kScatter * k * k;
       sum += std::cos(kTwoPi * lines[i] * n / length + phase) / std::hypot(1, lines[i] / corner);
     }
     signal[static_cast<std::size_t>(n)] = sum;

@@ -15,7 +15,7 @@ struct ExcitationPlan {
   double low_Hz = 2, high_Hz = 120;  ///< of the torque response
   int lines = 24;                    ///< its frequencies, evenly spread in the logarithm
   double record_s = 2;               ///< one period of a blocked excitation
-  int records = 4;                   ///< periods of each; the first settles and is thrown away
+  int records = 3;                   ///< periods of each; the first settles and is thrown away
   double travel_rad = 1;             ///< of the free output
 };
 
@@ -31,11 +31,11 @@ struct Excitation {
 };
 
 /// What is done in a posture, one after the other in one session of the bench:
-/// blocked      a multisine over the whole band for the torque response, one of few low frequencies
-///              and high rotor speeds for spring, rotor and backlash
+/// blocked      two multisines over the whole band for the torque response, one of few low
+///              frequencies and high rotor speeds for spring, rotor and backlash
 /// free         swings in both directions at many speeds
 /// back-driven  a slow torque through both signs while the output is turned
-/// Each has a second excitation of other phases or frequencies that is held out.
+/// Each has one more excitation of other phases or frequencies that is held out.
 /// @throw InputError if the plan exceeds the drive's torque limit or half the bus rate.
 std::vector<Excitation> excitationsFor(Posture posture, const ExcitationPlan& plan,
                                        const BenchConfig& bench);
@@ -46,11 +46,17 @@ double secondsOf(Posture posture, const ExcitationPlan& plan, const BenchConfig&
 /// Whole periods per record between two frequencies, evenly spread in the logarithm, none twice.
 std::vector<int> linesBetween(double low_Hz, double high_Hz, int lines, double record_s);
 
-/// One record of a sum of sines with unit peak, phases after Schroeder (1970) so that the peak
-/// stays low; `mirrored`: with the opposite phases, another signal of the same lines.
+/// Signals of the same lines: what friction and backlash do to a response differs between them.
+enum class Phases {
+  kSchroeder,  ///< after Schroeder (1970), so that the peak stays low
+  kMirrored,   ///< their opposite
+  kScattered,  ///< neither, with a higher peak
+};
+
+/// One record of a sum of sines with unit peak.
 /// @param corner  line from which on amplitudes fall with frequency: what is asked of the motor
 ///                grows with it
 std::vector<double> multisine(const std::vector<int>& lines, int length, double corner,
-                              bool mirrored);
+                              Phases phases);
 
 }  // namespace ballbot

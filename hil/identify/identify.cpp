@@ -20,11 +20,21 @@ bool isOfResponse(const Record& r) {
   return r.posture == Posture::kBlocked && r.name.rfind(kResponse, 0) == 0;
 }
 
-const Record& responseRecord(const std::vector<Record>& records) {
+double periodOf(const std::vector<Record>& records) { return records.front().period; }
+
+/// Lines of all response records that are fitted.
+std::vector<LoopLine> fittedLines(const std::vector<Record>& records, const BalanceVector& balance,
+                                  double zero) {
+  std::vector<LoopLine> out;
   for (const Record& r : records) {
-    if (isOfResponse(r) && !r.held_out) return r;
+    if (!isOfResponse(r) || r.held_out) continue;
+    for (const LoopLine& line : loopLines(r, balance, zero)) out.push_back(line);
   }
-  throw InputError("identify: there is no blocked record 'response'");
+  if (out.empty()) throw InputError("identify: there is no blocked record 'response'");
+  std::stable_sort(out.begin(), out.end(), [](const LoopLine& a, const LoopLine& b) {
+    return a.frequency_Hz < b.frequency_Hz;
+  });
+  return out;
 }
 
 void requirePostures(const std::vector<Record>& records) {
@@ -72,11 +82,10 @@ Identification identifyResponse(const std::vector<Record>& records,
                                 const IdentifyOptions& options) {
   Identification out;
   const BalanceVector nothing = BalanceVector::Zero();
-  const Record& fitted = responseRecord(records);
-  for (const LoopLine& l : loopLines(fitted, nothing, 0)) {
+  for (const LoopLine& l : fittedLines(records, nothing, 0)) {
     out.points.push_back({l.frequency_Hz, l.shown / l.sent});
   }
-  fitResponses(out, fitted.period);
+  fitResponses(out, periodOf(records));
   out.figures = figuresOf(out.second);
   for (const Record& r : records) {
     if (!isOfResponse(r) || !r.held_out) continue;
@@ -126,7 +135,6 @@ std::string Identification::complaint() const {
 Identification identify(const std::vector<Record>& records, const IdentifyOptions& options) {
   if (!showsCurrent(records)) return identifyResponse(records, options);
   requirePostures(records);
-  const Record& response = responseRecord(records);
   const double k0 = options.assumed_stiffness;
   std::vector<MomentumBalance> balances;
   bool back_driven = false;
@@ -139,9 +147,9 @@ Identification identify(const std::vector<Record>& records, const IdentifyOption
   out.has_current = true;
   for (int round = 0; round < kRounds; ++round) {
     out.balance = fitBalance(balances, round > 0 ? &out.balance : nullptr);
-    const auto lines = loopLines(response, out.balance.value,
-                                 fittedOf(Posture::kBlocked, balances, out.balance).zero);
-    out.loop = fitLoop(lines, out.balance.value, k0, response.period);
+    const auto lines = fittedLines(records, out.balance.value,
+                                   fittedOf(Posture::kBlocked, balances, out.balance).zero);
+    out.loop = fitLoop(lines, out.balance.value, k0, periodOf(records));
     const DriveLoop loop(out.balance.value, out.loop.value, k0);
     out.points = linearPoints(lines, loop, k0);
     for (std::size_t i = 0; i < balances.size(); ++i) {
@@ -150,7 +158,7 @@ Identification identify(const std::vector<Record>& records, const IdentifyOption
       balances[i].leaveOutFlanks(out.balance.zeros[i], out.balance.value[kBacklash]);
     }
   }
-  fitResponses(out, response.period);
+  fitResponses(out, periodOf(records));
   out.figures = figuresOf(out.balance, out.loop, k0, back_driven);
   validate(out, records, balances, options);
   return out;

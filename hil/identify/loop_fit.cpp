@@ -20,17 +20,19 @@ const LoopVector kScale = (LoopVector() << 1, 0.1, 1e-3, 1e-3).finished();
 const BalanceVector kBalanceScale =
     (BalanceVector() << 0.1, 300, 0.2, 0.3, 0.5, 0.1, 1e-3).finished();
 
-/// Dry friction, and what the spring gives less than k times its deflection: from the rotor's
+/// Dry friction, and what spring and its damping give less than without backlash: from the rotor's
 /// motion between the samples, since friction turns over wherever the rotor does.
 std::vector<double> nonlinearTorque(const Spectrum& motor_angle, const Spectrum& deflection,
                                     const BalanceVector& p, double zero, double period_s) {
   const int count = kFiner * 2 * static_cast<int>(motor_angle.size());
   const auto velocity = sampledFinely(derivativeOf(motor_angle, period_s), count);
+  const auto rate = sampledFinely(derivativeOf(deflection, period_s), count);
   std::vector<double> out = sampledFinely(deflection, count);
   for (std::size_t n = 0; n < out.size(); ++n) {
     const double sign = velocity[n] > 0 ? 1 : -1, from_zero = out[n] - zero;
-    const BalanceTerms t = balanceTerms(p, sign, from_zero, 0, velocity[n]);
-    out[n] = t.dry_friction + t.spring - p[kStiffness] * from_zero;
+    const BalanceTerms t = balanceTerms(p, sign, from_zero, rate[n], velocity[n]);
+    const double linear = p[kStiffness] * from_zero + p[kSpringDamping] * rate[n];
+    out[n] = t.dry_friction + t.spring - linear;
   }
   return out;
 }

@@ -85,7 +85,7 @@ class MomentumBalance {
   std::vector<double> inner_weights_, torque_weights_;
   std::vector<int> centres_;
   std::vector<double> acceleration_, torque_;  ///< one an equation
-  std::vector<double> excess_;  ///< of the measured motor torque, one a sample
+  std::vector<double> excess_;                 ///< of the measured motor torque, one a sample
 };
 
 /// Rate of a signal by five samples, right up to the fourth order; zero at both ends.

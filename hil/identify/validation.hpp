@@ -19,7 +19,7 @@ struct Validation {
 
 struct ValidationLimits {
   double least_fit_percent = 80;
-  double most_growth = 2;
+  double most_growth = 3;
 };
 
 /// Motor torque by the balance. @param residual  that the fitted record left [N m]

@@ -56,7 +56,7 @@ TEST(IdentifyDrive, RecoversTheEmulatedDrivesBandwidthWithinFivePercent) {
     ExcitationPlan plan;
     plan.drive = 2;
     const std::vector<Record> records = takeRecords(stand.runner, Posture::kBlocked, plan);
-    ASSERT_EQ(records.size(), 2U) << "without current only the response";
+    ASSERT_EQ(records.size(), 3U) << "without current only the response";
     for (const double sent : records[0].sent) ASSERT_LE(std::abs(sent), plan.amplitude_Nm + 1e-9);
     const Identification found = identify(records, {});
     EXPECT_FALSE(found.has_current);
