@@ -20,7 +20,7 @@ const char* requestFor(Posture posture) {
       return "Free the output of {}: it will swing about by itself. Keep clear of it.";
     case Posture::kBackDriven:
       return "Take the output of {} in your hand. It stays still until you press Enter; then it\n"
-             "pushes and pulls gently for 19 s: turn it to and fro against that, slowly and fast,\n"
+             "pushes and pulls gently for 20 s: turn it to and fro against that, slowly and fast,\n"
              "and begin once you feel it.";
   }
   return "";
