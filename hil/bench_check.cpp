@@ -10,26 +10,20 @@
 #include "hil/canopen_codec.hpp"
 #include "hil/cia402.hpp"
 #include "hil/drive_setup.hpp"
-#include "hil/sdo_client.hpp"
+#include "hil/sdo_exchange.hpp"
 
 namespace ballbot {
 namespace {
-
-using WallClock = std::chrono::steady_clock;
 
 /// SDO uploads from one node over one bus. What is not given is noted in the report.
 class Reader {
  public:
   Reader(CanBus& bus, int node, bool flexible, std::chrono::milliseconds patience,
          NodeReport& report)
-      : bus_(bus), node_(node), patience_(patience), report_(report) {
-    queue_.setFlexible(flexible);
-  }
+      : exchange_(bus, node, patience, flexible), report_(report) {}
 
   std::optional<std::int64_t> number(const char* what, std::uint16_t index, std::uint8_t sub = 0) {
-    if (!upload(what, {index, sub})) return std::nullopt;
-    return static_cast<std::int64_t>(
-        getLittleEndian(client_.data(), std::min<std::size_t>(client_.size(), 8)));
+    return noted(what, exchange_.number(index, sub));
   }
   /// The number times `unit`.
   std::optional<double> quantity(const char* what, double unit, std::uint16_t index,
@@ -39,51 +33,18 @@ class Reader {
     return unit * static_cast<double>(*value);
   }
   std::optional<std::string> text(const char* what, std::uint16_t index) {
-    if (!upload(what, {index, 0})) return std::nullopt;
-    return std::string(reinterpret_cast<const char*>(client_.data()), client_.size());
+    return noted(what, exchange_.text(index));
   }
 
  private:
-  bool upload(const char* what, ObjectAddress object) {
-    client_.upload(object, queue_);
-    exchange();
-    if (client_.status() == SdoClient::Status::kDone) return true;
-    report_.not_given.push_back(client_.status() == SdoClient::Status::kAborted
-                                    ? fmt::format("{} {}: refused, {:08X} ({})", toText(object),
-                                                  what, client_.abortCode(),
-                                                  sdoAbortText(client_.abortCode()))
-                                    : fmt::format("{} {}: no answer within {} ms", toText(object),
-                                                  what, patience_.count()));
-    return false;
+  template <typename Value>
+  std::optional<Value> noted(const char* what, std::optional<Value> value) {
+    if (!value) report_.not_given.push_back(exchange_.whyNot(what));
+    return value;
   }
 
-  void exchange() {
-    auto until = WallClock::now() + patience_;
-    CanFrame frame;
-    while (client_.status() == SdoClient::Status::kBusy) {
-      for (const CanFrame& out : queue_) bus_.send(out);
-      queue_.clear();
-      const auto left = until - WallClock::now();
-      if (left <= WallClock::duration::zero()) return;
-      bus_.waitReadable(left);
-      bool any = false;
-      while (bus_.receive(frame)) {
-        any = true;
-        // Every segment has the whole time.
-        if (client_.onFrame(frame, queue_)) until = WallClock::now() + patience_;
-      }
-      if (!any && bus_.descriptor() < 0) break;  // a bus in this process has nothing more to say
-    }
-    for (const CanFrame& out : queue_) bus_.send(out);
-    queue_.clear();
-  }
-
-  CanBus& bus_;
-  int node_;
-  std::chrono::milliseconds patience_;
+  SdoExchange exchange_;
   NodeReport& report_;
-  SdoClient client_{node_, 1 << 20};
-  FrameQueue queue_;
 };
 
 std::optional<std::int64_t> readIdentity(Reader& reader, NodeReport& report) {

@@ -46,6 +46,8 @@ void readDriveValues(ConfigReader& in, DriveConfig& d) {
   d.abort_connection_option =
       in.integerOr("abort_connection_option", d.abort_connection_option, {1, 3});
   s.torque_reference = in.numberOr("rated_torque_Nm", s.torque_reference, {0.001, 1000});
+  s.motor_torque_reference =
+      in.numberOr("motor_torque_at_rated_current_Nm", s.motor_torque_reference, {0, 1000});
   s.encoder_counts = in.numberOr("encoder_counts_per_turn", s.encoder_counts, {16, 1e9});
   s.motor_encoder_counts =
       in.numberOr("motor_encoder_counts_per_turn", s.motor_encoder_counts, {16, 1e9});

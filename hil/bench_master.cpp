@@ -61,6 +61,7 @@ BenchMaster::BenchMaster(const BenchConfig& config)
       shared_at_[i] = sharedOffset(config, config.drives[i]);
     }
   }
+  current_ = findInput({0x6078, 0});
   heartbeat_period_ = std::max(
       1, static_cast<int>(std::chrono::milliseconds(config.master_heartbeat_ms) / config.cycle));
 }
@@ -154,6 +155,7 @@ void BenchMaster::readPdo(int i, int pdo, const CanFrame& frame) noexcept {
   if (in(position_)) sample_.joint_angle[n] = scale.angle(position_.field.getSigned(frame));
   if (in(velocity_)) sample_.joint_velocity[n] = scale.velocity(velocity_.field.getSigned(frame));
   if (in(demand_)) drives_[n].demand = demand_.field.getSigned(frame);
+  if (in(current_)) sample_.motor_torque[n] = scale.motorTorque(current_.field.getSigned(frame));
   if (in(motor_position_)) {
     sample_.motor_angle[n] = scale.motorAngle(motor_position_.field.getSigned(frame));
   }

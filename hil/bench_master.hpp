@@ -124,7 +124,7 @@ class BenchMaster {
   int heartbeat_period_ = 1;
   bool collecting_ = false;  ///< between beginCycle() and endCycle()
   std::int64_t bad_pdos_ = 0, late_pdos_ = 0;
-  Input status_, torque_, position_, velocity_, motor_position_, demand_;
+  Input status_, torque_, position_, velocity_, motor_position_, demand_, current_;
 };
 
 }  // namespace ballbot

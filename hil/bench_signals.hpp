@@ -12,6 +12,7 @@ using DriveArray = std::array<double, kDriveCount>;
 /// What one cycle has measured, SI units, joint side; frames as in model/signals.hpp.
 struct BenchSample {
   DriveArray joint_angle{}, motor_angle{}, joint_velocity{}, joint_torque{};
+  DriveArray motor_torque{};   ///< by the motor's current, behind the gear; 0 where not mapped
   std::int64_t imu_count = 0;  ///< IMU samples so far
   std::int64_t imu_cycle = 0;  ///< cycle in which the last one arrived
   std::array<double, 3> accel{}, gyro{};

@@ -28,6 +28,10 @@ double DriveScaling::velocity(std::int64_t counts) const noexcept {
 double DriveScaling::torque(std::int64_t per_mille) const noexcept {
   return sign * (torque_reference / 1000) * static_cast<double>(per_mille);
 }
+double DriveScaling::motorTorque(std::int64_t per_mille) const noexcept {
+  const double reference = motor_torque_reference > 0 ? motor_torque_reference : torque_reference;
+  return sign * (reference / 1000) * static_cast<double>(per_mille);
+}
 std::int64_t DriveScaling::torqueCounts(double torque) const noexcept {
   return nearest(sign * torque / (torque_reference / 1000), kI16);
 }

@@ -9,6 +9,7 @@
 #include "experiment/plant_link.hpp"
 #include "experiment/scenario.hpp"
 #include "hil/bench_config.hpp"
+#include "hil/emulator/elastic_rig.hpp"
 #include "hil/emulator/joint_rig.hpp"
 #include "hil/emulator/serve_drives.hpp"
 #include "hil/open_can_bus.hpp"
@@ -32,6 +33,7 @@ struct DrivesArguments {
 
 std::unique_ptr<Participant> robotBehind(const EmulatorConfig& emulator, const BenchConfig& bench,
                                          const std::string& path) {
+  if (emulator.elastic_rig) return std::make_unique<ElasticRig>(*emulator.elastic_rig);
   if (!emulator.rig) return makePlant(loadBenchScenario(bench, path));
   JointRigOptions rig;
   rig.bandwidth_Hz = emulator.rig_bandwidth_Hz;

@@ -15,6 +15,7 @@ constexpr std::uint32_t kServoDrive = 0x00020192;  // 1000: CiA 402, type 2: ser
 constexpr double kNmPerMilli = 1e-3;
 constexpr std::int64_t kModeCsp = 8, kModeCst = 10;
 constexpr std::int64_t kSupportedModes = 1 << 7 | 1 << 9;
+constexpr std::int64_t kNoStand = 0;  // 2020:01
 constexpr std::uint8_t kDeviceError = 0x80;
 constexpr std::uint16_t kConnectionFault = 0x8130;
 
@@ -64,6 +65,11 @@ void DriveNode::addOptions(const EmulatedDriveParameters& p) {
   option(0x6007, "Abort connection option code", p.abort_connection_options, 1);
   option(0x605A, "Quick stop option code", p.quick_stop_options, 2);
   option(0x605E, "Fault reaction option code", p.fault_reaction_options, 2);
+  d.structure(0x2020, "Test stand", OdShape::kRecord);
+  OdEntry& stand = d.sub(0x2020, 1, "Output: 0 no stand, 1 blocked, 2 free, 3 turned", T::kU8,
+                         A::kReadWrite, kNoStand);
+  stand.low = kNoStand;
+  stand.high = static_cast<std::int64_t>(StandOutput::kTurned);
   d.structure(0x60C2, "Interpolation time period", OdShape::kRecord);
   OdEntry& period = d.sub(0x60C2, 1, "Interpolation time period value", T::kU8, A::kReadWrite, 25);
   period.low = 1;
@@ -93,11 +99,13 @@ void DriveNode::addControl(const EmulatedDriveParameters& p) {
   output(0x6071, "Target torque", T::kI16, 0);
   output(0x6072, "Max torque", T::kU16, p.max_torque_per_mille);
   input(0x6074, "Torque demand", T::kI16);
+  d.variable(0x6075, "Motor rated current", T::kU32, A::kReadOnly, p.rated_current_mA);
   d.variable(0x6076, "Motor rated torque", T::kU32, A::kReadOnly, p.rated_torque_mNm);
   if (p.torque_reference_mNm != 0) {
     d.variable(0x2031, "Torque of 1000 counts in mNm", T::kU32, A::kConst, p.torque_reference_mNm);
   }
   input(0x6077, "Torque actual value", T::kI16);
+  input(0x6078, "Current actual value", T::kI16);
   d.variable(0x6079, "DC link circuit voltage", T::kU32, A::kReadOnly, 48'000).mappable = true;
   output(0x607A, "Target position", T::kI32, 0);
   d.variable(0x6087, "Torque slope", T::kU32, A::kReadWrite, 100'000).low = 1;
@@ -153,6 +161,8 @@ std::uint32_t DriveNode::judge(std::uint16_t index, std::uint8_t, std::int64_t v
       return isOneOf(parameters_.fault_reaction_options, value) ? kNone : kValue;
     case 0x6007:
       return isOneOf(parameters_.abort_connection_options, value) ? kNone : kValue;
+    case 0x2020:  // where there is no stand nobody can set one
+      return dictionary().value(0x2020, 1) == kNoStand || value == kNoStand ? kDeviceState : kNone;
     case 0x60C2:  // not while it is interpolating
       return enabled() ? kDeviceState : kNone;
     default:
@@ -179,7 +189,18 @@ void DriveNode::onWritten() {
     dictionary().set(0x6061, mode);
     dictionary().set(0x6071, 0);
   }
+  OdEntry& stand = *dictionary().find(0x2020, 1);
+  stand.initial = stand.value;  // no part of the node that a reset could reach
   obey(static_cast<std::uint16_t>(dictionary().value(0x6040)));
+}
+
+void DriveNode::setStand(StandOutput output) {
+  OdEntry& stand = *dictionary().find(0x2020, 1);
+  stand.value = stand.initial = static_cast<std::int64_t>(output);
+}
+
+StandOutput DriveNode::standOutput() const {
+  return static_cast<StandOutput>(dictionary().value(0x2020, 1));
 }
 
 // CiA 402-2: commands are patterns of bits 0 to 3; fault reset is a rising edge of bit 7.
@@ -345,6 +366,9 @@ void DriveNode::refresh() {
   }
   const double felt = feedback_.joint_torque / parameters_.torque_share;
   d.set(0x6077, rounded(s * felt / parameters_.torqueUnit(), -kI16, kI16));
+  const double motor_per_mille =
+      static_cast<double>(parameters_.rated_current_torque_mNm) * kNmPerMilli / 1000;
+  d.set(0x6078, rounded(s * feedback_.motor_torque / motor_per_mille, -kI16, kI16));
   if (enabled() && powered()) wanted();  // 6074 follows the target at once
   d.set(0x6041, forced_status_ != 0 ? forced_status_ : statusword());
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hil/emulator/canopen_node.hpp"
+#include "hil/emulator/test_stand.hpp"
 
 namespace ballbot {
 
@@ -15,6 +16,9 @@ struct EmulatedDriveParameters {
   std::int64_t max_torque_per_mille = 1'500;  ///< 6072 after power-on
   std::int64_t encoder_counts = 14'400;  ///< 608F:01, of 6064, link side, per turn of the joint
   std::int64_t motor_encoder_counts = 720'000;  ///< 60E6:01, of 60E4:01, per turn of the joint
+  std::int64_t rated_current_mA = 10'000;       ///< 6075
+  /// What that current gives behind the gear.
+  std::int64_t rated_current_torque_mNm = 20'000;
   double sign = 1;                              ///< of all angles and torques against the joint's
   double offset = 0;                            ///< joint angle at which 6064 is zero [rad]
   /// Real torque over what it is told and says: what a wrong torque constant does to both.
@@ -44,6 +48,7 @@ struct DriveFeedback {
   double motor_angle = 0;     ///< before the spring, joint side of the gear [rad]
   double joint_velocity = 0;  ///< [rad/s]
   double joint_torque = 0;    ///< from the spring's deflection [N m]
+  double motor_torque = 0;    ///< mean of the last cycle, by the motor's current [N m]
 };
 
 /// What a drive does to its joint until it says otherwise; all zero without power.
@@ -62,6 +67,10 @@ class DriveNode final : public CanopenNode {
   void setFeedback(const DriveFeedback& feedback) { feedback_ = feedback; }
   /// @param now_ns time that has come, for the ramps of stops
   DriveOutput output(std::int64_t now_ns);
+  /// It is on a test stand, whose output object 2020:01 shows and sets from now on, resets or not.
+  void setStand(StandOutput output);
+  /// Only on a stand.
+  StandOutput standOutput() const;
   bool enabled() const { return power_ == Power::kOperationEnabled; }
   /// Whether there is power in the motor at all, ramps included.
   bool energized() const;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cosim/participant.hpp"
+#include "hil/emulator/test_stand.hpp"
 
 namespace ballbot {
 namespace {
@@ -24,6 +25,7 @@ std::array<double, 3> restForce(double pitch, double roll) {
 EmulatedBench::EmulatedBench(const EmulatorConfig& config, std::unique_ptr<Participant> robot)
     : config_(config),
       robot_(std::move(robot)),
+      stand_(dynamic_cast<TestStand*>(robot_.get())),
       imu_(std::make_unique<ImuNode>(config.imu_node, config.accel_resolution,
                                      config.gyro_resolution)),
       outbox_(static_cast<std::size_t>(config.bus_count)),
@@ -38,6 +40,7 @@ EmulatedBench::EmulatedBench(const EmulatorConfig& config, std::unique_ptr<Parti
   imu_->setFlexible(config.flexible);
   robot_->enterInitializationMode(kSimStart);
   robot_->exitInitializationMode();
+  for (int i = 0; stand_ != nullptr && i < 6; ++i) drive(i).setStand(stand_->output(i));
   readRobot();
 }
 
@@ -183,6 +186,9 @@ ActuatorCommand EmulatedBench::readOutputs() {
 void EmulatedBench::moveRobot(std::int64_t step_ns) {
   const ActuatorCommand command = readOutputs();
   if (!robot_runs_) return;
+  for (int i = 0; stand_ != nullptr && i < 6; ++i) {
+    stand_->setOutput(i, drive(i).standOutput());
+  }
   robot_->doStep(simTimeFromNs(robot_ns_), SimDuration{step_ns}, command);
   robot_ns_ += step_ns;
   if (const auto truth = robot_->truth()) {
@@ -195,7 +201,8 @@ void EmulatedBench::readRobot() {
   for (int i = 0; i < 6; ++i) {
     const double velocity = runaway_[i] != 0 ? runaway_[i] : s.joint_velocity[i];
     drives_[static_cast<std::size_t>(i)]->setFeedback(
-        {s.joint_angle[i], s.motor_angle[i], velocity, s.joint_torque[i]});
+        {s.joint_angle[i], s.motor_angle[i], velocity, s.joint_torque[i],
+         stand_ != nullptr ? stand_->motorTorque(i) : 0});
   }
   std::array<double, 3> accel{s.accel_B[0], s.accel_B[1], s.accel_B[2]};
   if (const auto truth = robot_->truth(); truth && s.imu_count == 0) {

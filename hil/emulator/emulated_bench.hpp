@@ -13,6 +13,7 @@
 namespace ballbot {
 
 class Participant;
+class TestStand;
 struct ActuatorCommand;
 
 /// Six emulated drives and an IMU on one or two buses, with a robot (or a test rig) behind them. No
@@ -75,6 +76,7 @@ class EmulatedBench {
 
   EmulatorConfig config_;
   std::unique_ptr<Participant> robot_;
+  TestStand* stand_;  ///< the robot's place, if it is one
   std::vector<std::unique_ptr<DriveNode>> drives_;
   std::unique_ptr<ImuNode> imu_;
   std::vector<std::deque<CanFrame>> outbox_;

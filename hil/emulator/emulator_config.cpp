@@ -81,6 +81,10 @@ void readDriveValues(ConfigReader& in, EmulatedDriveParameters& p) {
   p.encoder_counts = in.integerOr("encoder_counts", static_cast<int>(p.encoder_counts), {16, 1e8});
   p.motor_encoder_counts =
       in.integerOr("motor_encoder_counts", static_cast<int>(p.motor_encoder_counts), {16, 1e8});
+  p.rated_current_mA =
+      in.integerOr("rated_current_mA", static_cast<int>(p.rated_current_mA), {1, 1e6});
+  p.rated_current_torque_mNm = in.integerOr(
+      "rated_current_torque_mNm", static_cast<int>(p.rated_current_torque_mNm), {1, 1e6});
   p.sign = in.numberOr("sign", p.sign, {-1, 1});
   constexpr std::int64_t kMs = 1'000'000;
   p.sdo_delay_ns =
@@ -91,6 +95,16 @@ void readDriveValues(ConfigReader& in, EmulatedDriveParameters& p) {
 
 void readRig(ConfigReader in, EmulatorConfig& c) {
   c.rig = true;
+  if (in.has("elastic")) {
+    ConfigReader elastic = in.child("elastic");
+    ElasticRigOptions options;
+    options.joint = ElasticJointParameters::read(elastic);
+    options.noise_seed = static_cast<std::uint64_t>(elastic.integerOr("noise_seed", 1, {0, 1e9}));
+    elastic.finish();
+    options.output = in.booleanOr("blocked", false) ? StandOutput::kBlocked : StandOutput::kFree;
+    c.elastic_rig = options;
+    return in.finish();
+  }
   c.rig_bandwidth_Hz = in.numberOr("natural_frequency_Hz", c.rig_bandwidth_Hz, {0.1, 150});
   c.rig_damping_ratio = in.numberOr("damping_ratio", c.rig_damping_ratio, {0.05, 2});
   c.rig_delay_ms = in.numberOr("delay_ms", c.rig_delay_ms, {0, 50});

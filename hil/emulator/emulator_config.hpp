@@ -2,12 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/config_node.hpp"
 #include "core/time.hpp"
 #include "hil/emulator/drive_node.hpp"
+#include "hil/emulator/elastic_rig.hpp"
 
 namespace ballbot {
 
@@ -60,6 +62,8 @@ struct EmulatorConfig {
   bool rig = false;
   double rig_bandwidth_Hz = 40, rig_damping_ratio = 0.7071067811865476, rig_delay_ms = 0;
   bool rig_blocked = false;
+  /// Series elastic actuators on the rig instead of joints with an exactly known response.
+  std::optional<ElasticRigOptions> elastic_rig;
 };
 
 /// Reads `emulator:` of the bench file, and `cycle_us` and `stepped`, which both sides must share.

@@ -7,6 +7,7 @@
     tables.py faults                    the table of `ballbot hil --faults --json`, read from stdin
     tables.py budgets                   how full the buses of a bench are, classic and CAN FD, by `ballbot hil --budget`
     tables.py checks                    that of `ballbot hil --checks --json`
+    tables.py identified                that of `ballbot identify --seeds N --json`
     tables.py commissioning             that of `ballbot hil --commission --faults --json`
 """
 import json
@@ -132,6 +133,29 @@ def checks():
            for c in json.load(sys.stdin)["checks"]])
 
 
+def identified():
+    found = json.load(sys.stdin)
+    table(
+        ("figure", "is", "found, mean", "sigma", "rms of error / sigma", f"within two sigma, of {found['seeds']}"),
+        [
+            (
+                f["name"] + ", " + f["unit"],
+                f"{f['truth']:.4g}",
+                f"{f['mean']:.4g}",
+                f"{f['sigma']:.2g}",
+                f"{f['rms_z']:.2f}",
+                str(f["within_two_sigma"]),
+            )
+            for f in found["figures"]
+        ],
+    )
+    print()
+    print(
+        f"All together: {found['percent_within_two_sigma']:.1f} % within two sigma, rms {found['rms_z']:.2f}; "
+        f"{found['percent_within_two_sigma_or_five_percent']:.1f} % within two sigma or 5 %."
+    )
+
+
 def commissioning():
     table(["what is wrong", "found by the task", "before any torque"],
           [[r["name"], r["found_by"] or "(passes)", "no" if r["torque_was_on"] else "yes"]
@@ -140,4 +164,4 @@ def commissioning():
 
 if __name__ == "__main__":
     {"messages": messages, "rejected": rejected, "estimation": estimation, "seeds": seeds, "faults": faults, "budgets": budgets, "checks": checks,
-     "commissioning": commissioning}[sys.argv[1]](*sys.argv[2:])
+     "identified": identified, "commissioning": commissioning}[sys.argv[1]](*sys.argv[2:])

@@ -26,8 +26,8 @@ const std::string kBench = kConfigs + "hil/bench.yaml";
 /// `ballbot drives` on links of its own.
 class Drives {
  public:
-  explicit Drives(std::vector<std::string> extra = {}) {
-    std::vector<std::string> arguments{"drives", kBench, "--json"};
+  explicit Drives(std::vector<std::string> extra = {}, const std::string& config = kBench) {
+    std::vector<std::string> arguments{"drives", config, "--json"};
     for (const std::string n : {"0", "1"}) {
       const std::string link = base() + n;
       more_.insert(more_.end(), {"--set", "buses." + n + ".address=\"slcan:" + link + "\""});
@@ -205,6 +205,52 @@ TEST(BenchPrograms, IdentifyFindsThePlantsDriveAndWritesAScenarioForIt) {
   const Finished run = runBallbot(
       {"run", yaml, "--set", "duration_s=0.2", "--out", folder / "run", "--no-report", "--quiet"});
   EXPECT_NE(run.exit_code, 2) << run.err;
+  drives.finish();
+}
+
+// The shipped stand, over its pseudo terminals, in all postures: figures, files, and what reads
+// them.
+TEST(BenchPrograms, IdentifyFindsTheStandsDriveAndWritesDriveScenarioAndBench) {
+  const std::string stand = kConfigs + "hil/stand.yaml";
+  Drives drives({}, stand);
+  const TemporaryFolder folder;
+  const std::string scenario = folder / "wheel.yaml", actuator = folder / "drive.yaml",
+                    bench = folder / "bench.yaml";
+  const Finished f = runBallbot(drives.with(
+      {"identify", stand, "--drive", "3", "--scenario", kConfigs + "scenarios/balance.yaml",
+       "--out", scenario, "--actuator-out", actuator, "--bench-out", bench, "--json"}));
+  ASSERT_EQ(f.exit_code, 0) << f.err;
+  EXPECT_THAT(f.err, HasSubstr("wheel 3, output back-driven: up to 3.8 Nm for 20 s"));
+  const Json found = Json::parse(f.out);
+  EXPECT_TRUE(found["valid"]);
+  EXPECT_EQ(found["held_out"].size(), 4U);
+  const Json& figures = found["figures"];
+  EXPECT_NEAR(figures["stiffness_Nm_per_rad"]["value"], 350, 0.05 * 350);
+  EXPECT_NEAR(figures["rotor_inertia_kgm2"]["value"], 0.1, 0.05 * 0.1);
+  EXPECT_NEAR(figures["backlash_deg"]["value"], 0.1, 0.05 * 0.1);
+  EXPECT_EQ(figures["rotor_inertia_kgm2"]["verdict"], "agrees");
+  EXPECT_EQ(figures["load_friction"]["verdict"], "differs");
+  EXPECT_EQ(found["correlation"]["matrix"].size(), 9U);
+  EXPECT_NEAR(found["correlation"]["matrix"][4][4], 1, 1e-9);
+  EXPECT_THAT(readFile(actuator), HasSubstr("#   rotor inertia"));
+  const Finished bode = runBallbot({"bode", scenario, "--json"});
+  ASSERT_EQ(bode.exit_code, 0) << bode.err;
+  EXPECT_NEAR(Json::parse(bode.out)["actuators"]["wheel"]["wanted_bandwidth_Hz"],
+              found["torque_bandwidth_Hz"].get<double>(), 0.01);
+  const Finished check = runBallbot(drives.with({"hil", bench, "--check", "--json"}));
+  EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
+  EXPECT_FALSE(drives.finish()["torque_on"]);
+}
+
+TEST(BenchPrograms, IdentifyAsksAPersonOnlyAtATerminal) {
+  Drives drives({"--set", "emulator.rig={blocked: true}"});
+  const Finished f = runBallbot(drives.with({"identify", kBench, "--drive", "4", "--seeds", "2"}));
+  EXPECT_EQ(f.exit_code, 2);
+  EXPECT_THAT(f.err, HasSubstr("no rig with elastic actuators"));
+  const Finished response =
+      runBallbot(drives.with({"identify", kBench, "--drive", "4", "--response-only"}));
+  EXPECT_EQ(response.exit_code, 0) << response.err;
+  EXPECT_THAT(response.out, HasSubstr("not identified: the drive shows no motor current"));
   drives.finish();
 }
 

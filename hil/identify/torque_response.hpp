@@ -3,6 +3,8 @@
 #include <complex>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace ballbot {
 
 /// One point of a measured frequency response.
@@ -22,6 +24,7 @@ struct TorqueResponse {
   double delay = 0;                ///< T [s]
   // Standard deviations of the three, from the fit's residual.
   double natural_frequency_sigma = 0, damping_ratio_sigma = 0, delay_sigma = 0;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of log w, D, T
   double residual = 0;  ///< rms of the complex error, relative to the unit gain at rest
 
   std::complex<double> at(double frequency_Hz) const;
@@ -30,6 +33,8 @@ struct TorqueResponse {
   std::complex<double> sampledAt(double frequency_Hz, double period) const;
   /// Frequency at which the gain has fallen to 1/sqrt(2) [Hz].
   double bandwidth_Hz() const;
+  double bandwidth_sigma_Hz() const;
+  double bandwidth_delay_correlation() const;
 };
 
 /// Least squares fit (Gauss-Newton) of the sampled response.

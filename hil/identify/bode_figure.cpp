@@ -1,4 +1,4 @@
-#include "hil/identify_report.hpp"
+#include "hil/identify/bode_figure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,6 @@
 namespace ballbot {
 namespace {
 
-constexpr double kZeroShare = 0.4, kPoleOverZero = 2;
 constexpr int kCurvePoints = 160;
 constexpr double kLeft = 60, kWidth = 560, kHeight = 190, kTop = 30, kGap = 40;
 
@@ -74,33 +73,6 @@ std::string grid(const Diagram& d, double step, const char* unit) {
 
 }  // namespace
 
-std::string identifiedYaml(const std::string& drive, const Identification& found,
-                           const IdentifiedScenario& scenario) {
-  const TorqueResponse &second = found.second, &first = found.first;
-  std::string out = fmt::format(
-      "# {}: torque response identified on the bench, joint blocked, up to {:.3g} Nm.\n"
-      "# second order: {:.2f} +- {:.2f} Hz, damping {:.3f} +- {:.3f}, delay {:.3f} +- {:.3f} ms,\n"
-      "#   falls by 3 dB at {:.2f} Hz; rms error {:.4f}\n"
-      "# first order: {:.2f} +- {:.2f} Hz, delay {:.3f} ms; rms error {:.4f}\n"
-      "# torque_bandwidth_Hz is the setting with which the model's drive measures -3 dB there.\n"
-      "include: {}\n"
-      "robot:\n"
-      "  actuators:\n"
-      "    {}: {{torque_bandwidth_Hz: {:.4g}}}\n",
-      drive, found.largest_torque, second.natural_frequency / kTwoPi,
-      second.natural_frequency_sigma / kTwoPi, second.damping_ratio, second.damping_ratio_sigma,
-      1e3 * second.delay, 1e3 * second.delay_sigma, second.bandwidth_Hz(), second.residual,
-      first.bandwidth_Hz(), first.natural_frequency_sigma / kTwoPi, 1e3 * first.delay,
-      first.residual, scenario.include, scenario.group, scenario.torque_bandwidth_Hz);
-  if (!scenario.shaping) return out;
-  const double zero = kZeroShare * kTwoPi * scenario.torque_bandwidth_Hz;
-  return out + fmt::format(
-                   "controller:\n"
-                   "  mpc:\n"
-                   "    wheel_shaping: {{zero_rad_per_s: {:.4g}, pole_rad_per_s: {:.4g}}}\n",
-                   zero, kPoleOverZero * zero);
-}
-
 std::string bodeSvg(const std::string& drive, const Identification& found, double period) {
   const double low = found.points.front().frequency_Hz, high = found.points.back().frequency_Hz;
   const Diagram gain{kTop, -30, 10, low, high};
@@ -108,7 +80,8 @@ std::string bodeSvg(const std::string& drive, const Identification& found, doubl
   std::string out = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 640 500' font-family='sans-serif' "
       "font-size='11'>\n<rect width='640' height='500' fill='white'/>\n"
-      "<text x='{}' y='18' font-size='12'>Torque response of {} over Hz: measured (dots), second order "
+      "<text x='{}' y='18' font-size='12'>Torque response of {} over Hz: measured (dots), second "
+      "order "
       "(blue), first (orange)</text>\n",
       kLeft, drive);
   out += grid(gain, 10, "dB") + grid(phase, 90, "deg");
