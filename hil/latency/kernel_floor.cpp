@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <pthread.h>
 #include <sched.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include "hil/deadline_schedule.hpp"
@@ -72,6 +73,10 @@ KernelFloor::Result measureFloor(const FloorSettings& settings, double seconds,
   for (auto now = Clock::now(); now < until && !(stop != nullptr && *stop); now = Clock::now()) {
     std::this_thread::sleep_for(std::min<Clock::duration>(kLook, until - now));
   }
+  floor.finish();
+  // Its thread has locked all memory of this process, and what is yet to come; a bench locks its
+  // own.
+  ::munlockall();
   return floor.finish();
 }
 

@@ -46,7 +46,8 @@ class KernelFloor {
   std::thread thread_;
 };
 
-/// The floor over a while, in a thread of its own; ends early once `stop` is set.
+/// The floor over a while, in a thread of its own; ends early once `stop` is set. No memory is
+/// locked afterwards.
 KernelFloor::Result measureFloor(const FloorSettings& settings, double seconds,
                                  const std::atomic<bool>* stop = nullptr);
 

@@ -3,7 +3,6 @@
 #include <sstream>
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include "hil/latency/kernel_floor.hpp"
@@ -63,7 +62,6 @@ FloorMeasurements measureFloors(int core, double seconds, const std::atomic<bool
   m.interrupts_after = interruptsNow();
   m.stolen_ms = stolenMs(core) - stolen;
   m.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  ::munlockall();  // the threads have locked what is this process's
   return m;
 }
 

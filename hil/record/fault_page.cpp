@@ -47,19 +47,20 @@ ReportTable framesTable(const FaultRecord& record) {
   ReportTable table;
   table.title = "Frames on the buses";
   table.caption = fmt::format(
-      "Cycles {} to {}, in the order in which they passed the bench; the cycle of the decision "
+      "Cycles {} to {}, {}; the cycle of the decision "
       "stands out. All other frames of the record: decoded.csv beside this page.",
-      middle - kFramesBefore, middle + kFramesAfter);
+      middle - kFramesBefore, middle + kFramesAfter,
+      record.recorder.hasClock()
+          ? "in the order in which they passed the bench"
+          : "each bus by bus, because a stepped bench knows no time within one");
   table.columns = {"time [s]", "cycle", "bus", "way", "id", "whose", "what", "in words"};
-  const auto& frames = record.recorder.frames();
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const RecordedFrame& f = frames[i];
-    if (f.cycle < middle - kFramesBefore || f.cycle > middle + kFramesAfter) continue;
-    const FrameWords w = wordsOf(f, record.config());
-    table.rows.push_back(
-        {{secondsText(record.seconds(f.time_ns)), std::to_string(f.cycle), std::to_string(f.bus),
-          f.sent ? "sent" : "came", fmt::format("{:03X}", f.frame.id), w.who, w.service, w.meaning},
-         f.cycle == middle});
+  for (const RecordedFrame* f : record.frames()) {
+    if (f->cycle < middle - kFramesBefore || f->cycle > middle + kFramesAfter) continue;
+    const FrameWords w = wordsOf(*f, record.config());
+    table.rows.push_back({{secondsText(record.seconds(f->time_ns)), std::to_string(f->cycle),
+                           std::to_string(f->bus), f->sent ? "sent" : "came",
+                           fmt::format("{:03X}", f->frame.id), w.who, w.service, w.meaning},
+                          f->cycle == middle});
   }
   return table;
 }

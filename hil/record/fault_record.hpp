@@ -43,6 +43,9 @@ struct FaultRecord {
     const auto& cycles = recorder.cycles();
     return cycles.empty() ? 0 : cycles[cycles.size() - 1].cycle;
   }
+  /// All frames, in the order in which they passed; where the cycle is the clock, the frames of a
+  /// cycle bus by bus, because which bus was read first is nothing that happened in its time.
+  std::vector<const RecordedFrame*> frames() const;
   /// Seconds from there.
   double seconds(std::int64_t time_ns) const {
     return 1e-9 * static_cast<double>(time_ns - zeroNs());

@@ -70,21 +70,20 @@ class LineFile {
 
 int writeCandump(const FaultRecord& record, const std::string& path) {
   LineFile file(path);
-  const auto& frames = record.recorder.frames();
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (frames[i].refused) continue;  // was never on the bus
-    file.add(candumpLine(frames[i], record.facts.epoch_offset_ns));
+  for (const RecordedFrame* f : record.frames()) {
+    if (f->refused) continue;  // was never on the bus
+    file.add(candumpLine(*f, record.facts.epoch_offset_ns));
   }
   return file.close();
 }
 
 int writeAsc(const FaultRecord& record, const std::string& path) {
   LineFile file(path);
-  const auto& frames = record.recorder.frames();
-  const std::int64_t zero = frames.empty() ? 0 : frames[0].time_ns;
+  const auto frames = record.frames();
+  const std::int64_t zero = frames.empty() ? 0 : frames.front()->time_ns;
   file.add(ascHeader(zero + record.facts.epoch_offset_ns));
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (!frames[i].refused) file.add(ascLine(frames[i], zero));
+  for (const RecordedFrame* f : frames) {
+    if (!f->refused) file.add(ascLine(*f, zero));
   }
   file.add(ascFooter());
   return file.close();
@@ -101,13 +100,11 @@ std::string cell(const std::string& text) {
 int writeDecoded(const FaultRecord& record, const std::string& path) {
   LineFile file(path);
   file.add("time_s,cycle,bus,direction,id,node,who,service,meaning\n");
-  const auto& frames = record.recorder.frames();
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const RecordedFrame& f = frames[i];
-    const FrameWords w = wordsOf(f, record.config());
+  for (const RecordedFrame* f : record.frames()) {
+    const FrameWords w = wordsOf(*f, record.config());
     file.add(fmt::format("{:.6f},{},{},{},{:03X},{},{},{},{}\n",
-                         1e-9 * static_cast<double>(f.time_ns), f.cycle, f.bus,
-                         f.sent ? "sent" : "came", f.frame.id, w.node, cell(w.who), w.service,
+                         1e-9 * static_cast<double>(f->time_ns), f->cycle, f->bus,
+                         f->sent ? "sent" : "came", f->frame.id, w.node, cell(w.who), w.service,
                          cell(w.meaning)));
   }
   return file.close();

@@ -100,6 +100,24 @@ TEST_F(RecordFolder, OfASteppedRunIsTheSameBytesTwiceAndOverwritesNothing) {
   }
 }
 
+// Which bus was read first is no part of a stepped run; what a bus carried is.
+TEST(FaultRecord, OfASteppedRunHasTheFramesOfACycleBusByBus) {
+  RehearsedRecord run(RunnerKind::kStepped, frozenEncoder);
+  const FaultRecord record = run.record();
+  const auto frames = record.frames();
+  ASSERT_EQ(frames.size(), record.recorder.frames().size());
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    ASSERT_LE(frames[i - 1]->cycle, frames[i]->cycle);
+    if (frames[i]->cycle == 0 || frames[i - 1]->cycle != frames[i]->cycle) continue;
+    ASSERT_LE(frames[i - 1]->bus, frames[i]->bus) << "cycle " << frames[i]->cycle;
+  }
+  RehearsedRecord loop(RunnerKind::kRealTime, frozenEncoder);
+  const auto in_time = loop.record().frames();
+  for (std::size_t i = 1; i < in_time.size(); ++i) {
+    ASSERT_LE(in_time[i - 1]->time_ns, in_time[i]->time_ns);
+  }
+}
+
 // Bus time is the loop's clock; what came first is the same in both runners.
 TEST_F(RecordFolder, OfTheRealTimeLoopSaysTheSame) {
   RehearsedRecord stepped(RunnerKind::kStepped, lostImu), loop(RunnerKind::kRealTime, lostImu);
