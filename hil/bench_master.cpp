@@ -214,9 +214,11 @@ void BenchMaster::endCycle() noexcept {
   if (!running_) return;
   const auto all = static_cast<std::uint8_t>((1U << config_.inputs.size()) - 1);
   for (std::size_t i = 0; i < kDriveCount; ++i) {
+    // An adapter that stalled gives the answers of several cycles at once: they are no twin's.
+    const bool late = drives_[i].stale_cycles > 0;
     drives_[i].stale_cycles = pdos_seen_[i] == all ? 0 : drives_[i].stale_cycles + 1;
     drives_[i].misses.add(pdos_seen_[i] != all);
-    drives_[i].twins.add(twin_seen_[i]);
+    drives_[i].twins.add(twin_seen_[i] && !late);
     if (!motor_position_.field) {
       sample_.motor_angle[i] = sample_.joint_angle[i] +
                                sample_.joint_torque[i] / config_.drives[i].scaling.spring_stiffness;

@@ -1,6 +1,7 @@
 #include "hil/rehearsal/fault_table.hpp"
 
 #include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -38,6 +39,31 @@ TEST(FaultTable, IsTheSameEveryTime) {
 
 TEST(FaultTable, CombinationsOfFaultsEndInTimeOrAreSaid) {
   for (const FaultRow& row : rehearseRandomFaults(60, 1)) expectHeld(row);
+}
+
+/// The answers of a cycle are held back and come with those of the next one, as from an adapter that
+/// stalls now and then.
+TEST(FaultTable, AnswersThatComeTwoCyclesAtOnceAreNoTwins) {
+  Rehearsal rehearsal(Rehearsal::defaultConfig(), RunnerKind::kStepped);
+  ASSERT_TRUE(rehearsal.engage()) << rehearsal.why();
+  int cycle = 0;
+  std::vector<CanFrame> held;
+  rehearsal.wire(0).onWayToMaster([&](const CanFrame& f, std::vector<CanFrame>& out) {
+    const std::uint32_t function = f.id & 0x780U;
+    const bool answer = function >= 0x180 && function <= 0x480 && (function & 0x80U) != 0;
+    if (answer && (cycle == 60 || cycle == 70 || cycle == 80)) return held.push_back(f);
+    out.insert(out.end(), held.begin(), held.end());
+    held.clear();
+    out.push_back(f);
+  });
+  for (; cycle < 120; ++cycle) {
+    BenchCommand command;
+    for (std::size_t i = 0; i < command.torque.size(); ++i) {
+      command.torque[i] = 0.2 + 0.001 * ((7 * cycle + static_cast<int>(i)) % 13);
+    }
+    rehearsal.cycle(&command);
+  }
+  EXPECT_FALSE(rehearsal.ended()) << rehearsal.why();
 }
 
 }  // namespace
