@@ -22,18 +22,12 @@ bool isOfResponse(const Record& r) {
 
 double periodOf(const std::vector<Record>& records) { return records.front().period; }
 
-/// Lines of all response records that are fitted.
-std::vector<LoopLine> fittedLines(const std::vector<Record>& records, const BalanceVector& balance,
-                                  double zero) {
-  std::vector<LoopLine> out;
+std::vector<ResponseRecord> fittedResponses(const std::vector<Record>& records) {
+  std::vector<ResponseRecord> out;
   for (const Record& r : records) {
-    if (!isOfResponse(r) || r.held_out) continue;
-    for (const LoopLine& line : loopLines(r, balance, zero)) out.push_back(line);
+    if (isOfResponse(r) && !r.held_out) out.emplace_back(r);
   }
   if (out.empty()) throw InputError("identify: there is no blocked record 'response'");
-  std::stable_sort(out.begin(), out.end(), [](const LoopLine& a, const LoopLine& b) {
-    return a.frequency_Hz < b.frequency_Hz;
-  });
   return out;
 }
 
@@ -82,7 +76,7 @@ Identification identifyResponse(const std::vector<Record>& records,
                                 const IdentifyOptions& options) {
   Identification out;
   const BalanceVector nothing = BalanceVector::Zero();
-  for (const LoopLine& l : fittedLines(records, nothing, 0)) {
+  for (const LoopLine& l : linesOf(fittedResponses(records), nothing, 0)) {
     out.points.push_back({l.frequency_Hz, l.shown / l.sent});
   }
   fitResponses(out, periodOf(records));
@@ -90,7 +84,7 @@ Identification identifyResponse(const std::vector<Record>& records,
   for (const Record& r : records) {
     if (!isOfResponse(r) || !r.held_out) continue;
     out.validation.push_back(
-        validateResponse(r, loopLines(r, nothing, 0), out.second, options.limits));
+        validateResponse(r, ResponseRecord(r).lines(nothing, 0), out.second, options.limits));
   }
   return out;
 }
@@ -103,7 +97,7 @@ void validate(Identification& out, const std::vector<Record>& records,
   for (const Record& r : records) {
     if (!r.held_out) continue;
     if (isOfResponse(r)) {
-      out.validation.push_back(validateLoop(r, loopLines(r, p, blocked_zero), loop,
+      out.validation.push_back(validateLoop(r, ResponseRecord(r).lines(p, blocked_zero), loop,
                                             options.assumed_stiffness, out.loop.shown_residual,
                                             options.limits));
       continue;
@@ -136,6 +130,7 @@ Identification identify(const std::vector<Record>& records, const IdentifyOption
   if (!showsCurrent(records)) return identifyResponse(records, options);
   requirePostures(records);
   const double k0 = options.assumed_stiffness;
+  const std::vector<ResponseRecord> responses = fittedResponses(records);
   std::vector<MomentumBalance> balances;
   bool back_driven = false;
   for (const Record& r : records) {
@@ -147,11 +142,10 @@ Identification identify(const std::vector<Record>& records, const IdentifyOption
   out.has_current = true;
   for (int round = 0; round < kRounds; ++round) {
     out.balance = fitBalance(balances, round > 0 ? &out.balance : nullptr);
-    const auto lines = fittedLines(records, out.balance.value,
-                                   fittedOf(Posture::kBlocked, balances, out.balance).zero);
-    out.loop = fitLoop(lines, out.balance.value, k0, periodOf(records));
+    const double zero = fittedOf(Posture::kBlocked, balances, out.balance).zero;
+    out.loop = fitLoop(responses, out.balance.value, zero, k0, periodOf(records));
     const DriveLoop loop(out.balance.value, out.loop.value, k0);
-    out.points = linearPoints(lines, loop, k0);
+    out.points = linearPoints(linesOf(responses, out.balance.value, zero), loop, k0);
     for (std::size_t i = 0; i < balances.size(); ++i) {
       takeImagesOff(balances[i], loop);
       if (round > 0 || balances[i].record().posture == Posture::kBlocked) continue;

@@ -13,29 +13,13 @@ namespace {
 
 constexpr int kIterations = 80, kWeighings = 4;
 const LoopVector kStart(3, 0.1, 5e-4, 5e-4);
+constexpr Eigen::Index kBlockRows = 16;               // four lines of four errors
 constexpr int kFiner = 8;                             // points between two samples
 constexpr double kSmall = 1e-6, kBalanceStep = 1e-4;  // of numerical slopes, of the sizes below
 // Sizes of the unknowns: of steps of their slopes.
 const LoopVector kScale = (LoopVector() << 1, 0.1, 1e-3, 1e-3).finished();
 const BalanceVector kBalanceScale =
     (BalanceVector() << 0.1, 300, 0.2, 0.3, 0.5, 0.1, 1e-3).finished();
-
-/// Dry friction, and what spring and its damping give less than without backlash: from the rotor's
-/// motion between the samples, since friction turns over wherever the rotor does.
-std::vector<double> nonlinearTorque(const Spectrum& motor_angle, const Spectrum& deflection,
-                                    const BalanceVector& p, double zero, double period_s) {
-  const int count = kFiner * 2 * static_cast<int>(motor_angle.size());
-  const auto velocity = sampledFinely(derivativeOf(motor_angle, period_s), count);
-  const auto rate = sampledFinely(derivativeOf(deflection, period_s), count);
-  std::vector<double> out = sampledFinely(deflection, count);
-  for (std::size_t n = 0; n < out.size(); ++n) {
-    const double sign = velocity[n] > 0 ? 1 : -1, from_zero = out[n] - zero;
-    const BalanceTerms t = balanceTerms(p, sign, from_zero, rate[n], velocity[n]);
-    const double linear = p[kStiffness] * from_zero + p[kSpringDamping] * rate[n];
-    out[n] = t.dry_friction + t.spring - linear;
-  }
-  return out;
-}
 
 /// Errors of all lines, each kind over its own size.
 struct Weighing {
@@ -81,7 +65,7 @@ class Search {
 
   void run(LoopVector& q, const Weighing& size) {
     size_ = size;
-    errors = at(p_, q);
+    errors = at(q);
     differentiate(q);
     double damping = 1e-3;
     for (int i = 0; i < kIterations && damping < 1e9; ++i) {
@@ -89,7 +73,7 @@ class Search {
       A.diagonal() *= 1 + damping;
       const LoopVector next = q - kScale.cwiseProduct(A.ldlt().solve(slope.transpose() * errors));
       const bool possible = next.allFinite() && next[kLogGain] < 20 && next[kLag] > 0;
-      const Eigen::VectorXd there = possible ? at(p_, next) : errors;
+      const Eigen::VectorXd there = possible ? at(next) : errors;
       if (!(there.squaredNorm() < errors.squaredNorm())) {
         damping *= 8;
         continue;
@@ -103,20 +87,21 @@ class Search {
       if (settled) break;
     }
   }
-  Eigen::VectorXd at(const BalanceVector& p, const LoopVector& q) const {
-    return errorsAt(lines_, p, q, k0_, period_, size_);
-  }
+  const Weighing& size() const { return size_; }
 
   Eigen::VectorXd errors;
   Eigen::Matrix<double, Eigen::Dynamic, kLoopCount> slope;
 
  private:
+  Eigen::VectorXd at(const LoopVector& q) const {
+    return errorsAt(lines_, p_, q, k0_, period_, size_);
+  }
   void differentiate(const LoopVector& q) {
     slope.resize(errors.size(), kLoopCount);
     for (int i = 0; i < kLoopCount; ++i) {
       LoopVector moved = q;
       moved[i] += kSmall * kScale[i];
-      slope.col(i) = (at(p_, moved) - errors) / kSmall;
+      slope.col(i) = (at(moved) - errors) / kSmall;
     }
   }
 
@@ -126,23 +111,72 @@ class Search {
   Weighing size_;
 };
 
+/// Covariance of the scores from sums over blocks of neighbouring frequencies, within which errors
+/// may depend on each other: those of the model do.
+LoopMatrix scoresOf(const Search& search) {
+  LoopMatrix middle = LoopMatrix::Zero();
+  int blocks = 0;
+  const Eigen::Index rows = search.errors.size();
+  for (Eigen::Index first = 0; first < rows; first += kBlockRows, ++blocks) {
+    const Eigen::Index n = std::min(kBlockRows, rows - first);
+    const LoopVector score =
+        search.slope.middleRows(first, n).transpose() * search.errors.segment(first, n);
+    middle += score * score.transpose();
+  }
+  return middle * blocks / std::max(1, blocks - kLoopCount);
+}
+
 }  // namespace
 
-std::vector<LoopLine> loopLines(const Record& record, const BalanceVector& balance, double zero) {
+ResponseRecord::ResponseRecord(const Record& record) {
   const auto period = [&](const std::vector<double>& x) { return meanPeriod(x, record.repeats); };
   const double period_s = record.repeats * record.period;
   const Spectrum sent = spectrumOf(period(record.sent));
   const Spectrum deflection = spectrumOf(period(record.deflection()));
+  const Spectrum motor_angle = spectrumOf(period(record.motor_angle));
   const auto shown = period(record.joint_torque), motor = period(record.motor_torque);
-  const auto nonlinear =
-      nonlinearTorque(spectrumOf(period(record.motor_angle)), deflection, balance, zero, period_s);
-  std::vector<LoopLine> lines;
-  for (const int k : excitedLines(sent)) {
+  numbers_ = excitedLines(sent);
+  for (const int k : numbers_) {
     const auto n = static_cast<std::size_t>(k);
-    lines.push_back({k / period_s, sent[n], lineOf(shown, k), deflection[n], lineOf(motor, k),
-                     lineOf(nonlinear, k)});
+    linear_.push_back(
+        {k / period_s, sent[n], lineOf(shown, k), deflection[n], lineOf(motor, k), 0});
   }
-  return lines;
+  const int count = kFiner * record.repeats;
+  velocity_ = sampledFinely(derivativeOf(motor_angle, period_s), count);
+  rate_ = sampledFinely(derivativeOf(deflection, period_s), count);
+  deflection_ = sampledFinely(deflection, count);
+}
+
+// Dry friction, and what spring and its damping give less than without backlash.
+std::vector<double> ResponseRecord::nonlinearTorque(const BalanceVector& p, double zero) const {
+  std::vector<double> out(velocity_.size());
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    const double sign = velocity_[n] > 0 ? 1 : -1, from_zero = deflection_[n] - zero;
+    const BalanceTerms t = balanceTerms(p, sign, from_zero, rate_[n], velocity_[n]);
+    const double linear = p[kStiffness] * from_zero + p[kSpringDamping] * rate_[n];
+    out[n] = t.dry_friction + t.spring - linear;
+  }
+  return out;
+}
+
+std::vector<LoopLine> ResponseRecord::lines(const BalanceVector& balance, double zero) const {
+  const std::vector<double> nonlinear = nonlinearTorque(balance, zero);
+  const std::vector<Complex> torques = linesAt(nonlinear, numbers_);
+  std::vector<LoopLine> out = linear_;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].nonlinear = torques[i];
+  return out;
+}
+
+std::vector<LoopLine> linesOf(const std::vector<ResponseRecord>& records,
+                              const BalanceVector& balance, double zero) {
+  std::vector<LoopLine> out;
+  for (const ResponseRecord& r : records) {
+    for (const LoopLine& line : r.lines(balance, zero)) out.push_back(line);
+  }
+  std::stable_sort(out.begin(), out.end(), [](const LoopLine& a, const LoopLine& b) {
+    return a.frequency_Hz < b.frequency_Hz;
+  });
+  return out;
 }
 
 LoopError loopError(const LoopLine& l, const DriveLoop& loop, double k0, double period) {
@@ -154,8 +188,9 @@ LoopError loopError(const LoopLine& l, const DriveLoop& loop, double k0, double 
   return {k0 * (deflection - l.deflection), motor - l.motor};
 }
 
-LoopFit fitLoop(const std::vector<LoopLine>& lines, const BalanceVector& p, double k0,
-                double period) {
+LoopFit fitLoop(const std::vector<ResponseRecord>& records, const BalanceVector& p, double zero,
+                double k0, double period) {
+  const std::vector<LoopLine> lines = linesOf(records, p, zero);
   if (lines.size() < kLoopCount) {
     throw NumericalError("too few frequencies determine no torque loop");
   }
@@ -170,12 +205,15 @@ LoopFit fitLoop(const std::vector<LoopLine>& lines, const BalanceVector& p, doub
     throw NumericalError("the measured response determines no torque loop");
   }
   const LoopMatrix scale = kScale.asDiagonal();
-  fit.covariance = scale * ldlt.solve(LoopMatrix::Identity()) * scale;
+  const LoopMatrix inverse = ldlt.solve(LoopMatrix::Identity());
+  fit.covariance = scale * inverse * scoresOf(search) * inverse * scale;
   for (int i = 0; i < kBalanceCount; ++i) {
     BalanceVector moved = p;
     moved[i] += kBalanceStep * kBalanceScale[i];
     const Eigen::VectorXd change =
-        (search.at(moved, fit.value) - search.errors) / (kBalanceStep * kBalanceScale[i]);
+        (errorsAt(linesOf(records, moved, zero), moved, fit.value, k0, period, search.size()) -
+         search.errors) /
+        (kBalanceStep * kBalanceScale[i]);
     fit.sensitivity.col(i) = -scale * ldlt.solve(search.slope.transpose() * change);
   }
   const Weighing size = sizesAt(lines, p, fit.value, k0, period);

@@ -17,9 +17,26 @@ struct LoopLine {
   Complex nonlinear;   ///< dry friction and what backlash takes off the spring [N m]
 };
 
-/// The lines of a blocked, repeating record that its excitation has.
-/// @param zero  of its deflection [rad]
-std::vector<LoopLine> loopLines(const Record& record, const BalanceVector& balance, double zero);
+/// A blocked, repeating record by the lines that its excitation has, and between its samples, since
+/// friction turns over wherever the rotor does.
+class ResponseRecord {
+ public:
+  explicit ResponseRecord(const Record& record);
+
+  /// @param zero  of its deflection [rad]
+  std::vector<LoopLine> lines(const BalanceVector& balance, double zero) const;
+
+ private:
+  std::vector<double> nonlinearTorque(const BalanceVector& balance, double zero) const;
+
+  std::vector<int> numbers_;                          ///< of the lines
+  std::vector<LoopLine> linear_;                      ///< with no nonlinear torque yet
+  std::vector<double> velocity_, deflection_, rate_;  ///< at fine instants of a period
+};
+
+/// Of all records, by frequency.
+std::vector<LoopLine> linesOf(const std::vector<ResponseRecord>& records,
+                              const BalanceVector& balance, double zero);
 
 struct LoopFit {
   LoopVector value = LoopVector::Zero();
@@ -31,11 +48,11 @@ struct LoopFit {
   double shown_residual = 0, motor_residual = 0;  ///< of both LoopErrors, rms of a part [N m]
 };
 
-/// Least squares of deflection and motor torque by the lines' torque and friction, each weighed by
-/// its residual.
+/// Least squares of deflection and motor torque by the records' torque and friction, each weighed
+/// by its residual. @param zero  of the deflection [rad]
 /// @throw NumericalError if they do not determine the loop.
-LoopFit fitLoop(const std::vector<LoopLine>& lines, const BalanceVector& balance,
-                double assumed_stiffness, double period);
+LoopFit fitLoop(const std::vector<ResponseRecord>& records, const BalanceVector& balance,
+                double zero, double assumed_stiffness, double period);
 
 /// Predicted minus measured [N m].
 struct LoopError {

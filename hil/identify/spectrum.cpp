@@ -26,7 +26,8 @@ Complex coefficient(const std::vector<double>& period, std::size_t k,
   std::size_t turn = 0;
   for (const double x : period) {
     sum += x * std::conj(roots[turn]);
-    turn = (turn + k) % roots.size();
+    turn += k;
+    if (turn >= roots.size()) turn -= roots.size();
   }
   return sum / static_cast<double>(period.size());
 }
@@ -44,6 +45,15 @@ std::vector<double> meanPeriod(const std::vector<double>& signal, int repeats) {
 
 Complex lineOf(const std::vector<double>& period, int k) {
   return coefficient(period, static_cast<std::size_t>(k), rootsOfUnity(period.size()));
+}
+
+std::vector<Complex> linesAt(const std::vector<double>& period, const std::vector<int>& lines) {
+  const std::vector<Complex> roots = rootsOfUnity(period.size());
+  std::vector<Complex> out;
+  for (const int k : lines) {
+    out.push_back(coefficient(period, static_cast<std::size_t>(k), roots));
+  }
+  return out;
 }
 
 Spectrum spectrumOf(const std::vector<double>& period) {

@@ -18,6 +18,9 @@ Spectrum spectrumOf(const std::vector<double>& period);
 /// The coefficient of one line alone.
 Complex lineOf(const std::vector<double>& period, int k);
 
+/// Those of several lines.
+std::vector<Complex> linesAt(const std::vector<double>& period, const std::vector<int>& lines);
+
 /// The signal, band-limited as sampling left it, at `count` instants of its period.
 std::vector<double> sampledFinely(const Spectrum& spectrum, int count);
 
