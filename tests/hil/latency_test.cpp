@@ -40,7 +40,7 @@ class ModelBus {
   std::int64_t time() const { return time_; }
 
  private:
-  void carry(const CanFrame& f) { time_ += bitsOf(f).nominal * kUs; }
+  void carry(const CanFrame& f) { time_ += bitsOf(f).nominal.slow * kUs; }
   AnswerProbe& probe_;
   std::int64_t time_ = 0;
 };
