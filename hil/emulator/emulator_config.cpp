@@ -58,8 +58,9 @@ void readOptions(ConfigReader& in, const char* key, std::vector<int>& options) {
 /// What other vendors do otherwise.
 void readDeviations(ConfigReader& in, EmulatedDriveParameters& p) {
   p.name = in.textOr("name", p.name);
-  // Those of invented devices, so that no real one can be taken for one of these.
-  p.product_code = in.integerOr("product_code", static_cast<int>(p.product_code), {0xBA10, 0xBA1F});
+  // Those of invented devices, so that no real one can be taken for one of these; from BA20 on of such
+  // that do not say that they are emulated.
+  p.product_code = in.integerOr("product_code", static_cast<int>(p.product_code), {0xBA10, 0xBA2F});
   p.torque_reference_mNm =
       in.integerOr("torque_reference_mNm", static_cast<int>(p.torque_reference_mNm), {1, 1e6});
   p.velocity_bits = in.integerOr("velocity_bits", p.velocity_bits, {16, 32});

@@ -161,6 +161,28 @@ TEST(BenchPrograms, CheckFindsSevenNodesAndNamesWhatDiffers) {
   drives.finish();
 }
 
+TEST(BenchPrograms, DrivesThatMayBeRealAreNotServedBeforeTheyWereCommissioned) {
+  const std::string bench = kConfigs + "hil/bench_realtime.yaml";
+  const Drives drives({"--set", "emulator.drive_defaults.product_code=47648", "--set", "drive_defaults.eds=null"},
+                      bench);
+  const std::string channel = "HILTEST" + std::to_string(::getpid());
+  const TemporaryFolder folder;
+  const auto serve = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"hil", bench, "--floor-seconds", "0", "--channel", channel};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runBallbot(drives.with(arguments), 30);
+  };
+  const Finished bare = serve({"--commissioning-record", folder / "none.json"});
+  EXPECT_EQ(bare.exit_code, 2);
+  EXPECT_THAT(bare.err, HasSubstr("no record that this bench was commissioned"));
+  const Finished mute = serve({"--without-commissioning", "no"});
+  EXPECT_EQ(mute.exit_code, 2);
+  EXPECT_THAT(mute.err, HasSubstr("needs a reason in words"));
+  const Finished nobody = serve({"--commission"});
+  EXPECT_EQ(nobody.exit_code, 2);
+  EXPECT_THAT(nobody.err, HasSubstr("--person"));
+}
+
 TEST(BenchPrograms, FaultTableHolds) {
   const Finished f = runBallbot({"hil", "--faults", "--json"});
   EXPECT_EQ(f.exit_code, 0) << f.out;
@@ -276,9 +298,10 @@ TEST(BenchPrograms, RealTimeRunsOrSaysWhyNotAndStopsWithTheDrivesOff) {
     EXPECT_GT(latency["buses"][1]["answers"]["count"], 0);
     EXPECT_EQ(latency["buses"][1]["has_wire"], false) << "a pseudo terminal";
   } else {
-    EXPECT_EQ(f.exit_code, 3) << f.err;
+    // 1: a machine that was late in the held-out record, which then fits no model.
+    EXPECT_THAT(f.exit_code, ::testing::AnyOf(1, 3)) << f.err;
     EXPECT_THAT(f.err, ::testing::AnyOf(HasSubstr("bench: stopped: "), HasSubstr("no drive of"),
-                                        HasSubstr("no model")));
+                                        HasSubstr("no model"), HasSubstr("does not fit record")));
   }
   EXPECT_FALSE(drives.finish()["torque_on"]);
 }
