@@ -269,56 +269,88 @@ ExitCode serveBench(const HilArguments& a) {
   return concludeRecorded(runner, ending, a, facts);
 }
 
+// What serving a bench needs.
+void addServing(CLI::App& command, HilArguments& a) {
+  command.add_option("config", a.config, "Bench file, e.g. configs/hil/bench.yaml");
+  command.add_option("--set", a.overrides, "path=value: change one value of the bench file")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command.add_option("--lcm-url", a.lcm_url, "LCM URL; ttl=0 keeps packets on this machine")
+      ->capture_default_str();
+  command.add_option("--channel", a.channel, "LCM channel")->capture_default_str();
+  command.add_flag("--keep-serving", a.keep_serving, "Serve run after run until Ctrl-C");
+  command.add_option("--record", a.record, "Write every cycle to this CSV file (real time only)");
+  command
+      .add_option("--floor-seconds", a.floor_s,
+                  "Real time: measure the kernel's own latency so long before the bench; 0: not")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  command.add_flag("--floor-meanwhile", a.floor_meanwhile,
+                   "Measure it beside the bench, too, in a thread of the same settings");
+  addRecordOptions(command, a.records);
+  command.add_option("--show-record", a.show_record,
+                     "Print the record in this folder: what fired first, what was around it");
+}
+
+// What finds out whether a bench is as its file says.
+void addInspection(CLI::App& command, HilArguments& a) {
+  command.add_flag("--check", a.check,
+                   "Ask every node what it is, change nothing, print a table and what disagrees");
+  command.add_flag("--commission", a.commission,
+                   "Find out, with the robot held and a person's hands, whether the bench is the\n"
+                   "one its file describes; then sign a record. With --faults: every case that it\n"
+                   "must find, on emulated drives");
+  command.add_flag("--rehearse", a.rehearse,
+                   "With --commission: show it on emulated drives, by an emulated person");
+  command.add_option("--person", a.person, "Who commissions, for the record");
+  command.add_option("--commissioning-record", a.commissioning_record,
+                     "The record; default: beside the bench file, NAME.commissioned.json");
+  command.add_option("--without-commissioning", a.without_commissioning,
+                     "Serve real drives without a record, for this reason in words");
+}
+
+// What needs no bench.
+void addTables(CLI::App& command, HilArguments& a) {
+  command.add_flag("--budget", a.budget, "Print how full the buses will be; no bus is opened");
+  command.add_flag("--faults", a.faults,
+                   "Try every fault on emulated drives in this process and print the table");
+  command
+      .add_option("--random", a.random,
+                  "With --faults: so many random combinations of two or three of them instead")
+      ->check(CLI::Range(1, 1'000'000));
+  command.add_option("--seed", a.seed, "Of these combinations")->capture_default_str();
+  command.add_flag("--checks", a.checks,
+                   "Print what the bench checks: name, words, reaction, bound, page");
+}
+
+ExitCode runHil(const HilArguments& a) {
+  if (a.checks) return showChecks(a.json);
+  if (a.commission && a.faults) return showCommissioningCases(a.json);
+  if (a.commission && a.rehearse) return rehearseCommission(a.json);
+  if (a.faults) {
+    return showRows(a.random > 0 ? rehearseRandomFaults(a.random, a.seed) : rehearseFaults(),
+                    a.json);
+  }
+  if (!a.show_record.empty()) {
+    showRecord(a.show_record, a.json);
+    return ExitCode::kPassed;
+  }
+  if (a.config.empty()) throw InputError("hil: give a bench file, e.g. configs/hil/bench.yaml");
+  if (a.budget) return showBudget(a);
+  if (a.check) return showBench(a);
+  return a.commission ? commissionOpened(a) : serveBench(a);
+}
+
 }  // namespace
 
 void addHilCommand(CLI::App& program, ExitCode& result) {
   CLI::App* command = program.add_subcommand(
       "hil", "Serve a bench of real or emulated drives over LCM, in the plant's place");
   const auto a = std::make_shared<HilArguments>();
-  command->add_option("config", a->config, "Bench file, e.g. configs/hil/bench.yaml");
-  command->add_option("--set", a->overrides, "path=value: change one value of the bench file")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->take_all();
-  command->add_option("--lcm-url", a->lcm_url, "LCM URL; ttl=0 keeps packets on this machine")
-      ->capture_default_str();
-  command->add_option("--channel", a->channel, "LCM channel")->capture_default_str();
-  command->add_flag("--keep-serving", a->keep_serving, "Serve run after run until Ctrl-C");
-  command->add_option("--record", a->record, "Write every cycle to this CSV file (real time only)");
-  command
-      ->add_option("--floor-seconds", a->floor_s,
-                   "Real time: measure the kernel's own latency so long before the bench; 0: not")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->capture_default_str();
-  command->add_flag("--floor-meanwhile", a->floor_meanwhile,
-                    "Measure it beside the bench, too, in a thread of the same settings");
-  addRecordOptions(*command, a->records);
-  command->add_option("--show-record", a->show_record,
-                      "Print the record in this folder: what fired first, what was around it");
-  command->add_flag("--check", a->check,
-                    "Ask every node what it is, change nothing, print a table and what disagrees");
-  command->add_flag(
-      "--commission", a->commission,
-      "Find out, with the robot held and a person's hands, whether the bench is the\n"
-      "one its file describes; then sign a record. With --faults: every case that it\n"
-      "must find, on emulated drives");
-  command->add_flag("--rehearse", a->rehearse,
-                    "With --commission: show it on emulated drives, by an emulated person");
-  command->add_option("--person", a->person, "Who commissions, for the record");
-  command->add_option("--commissioning-record", a->commissioning_record,
-                      "The record; default: beside the bench file, NAME.commissioned.json");
-  command->add_option("--without-commissioning", a->without_commissioning,
-                      "Serve real drives without a record, for this reason in words");
-  command->add_flag("--budget", a->budget, "Print how full the buses will be; no bus is opened");
-  command->add_flag("--faults", a->faults,
-                    "Try every fault on emulated drives in this process and print the table");
-  command
-      ->add_option("--random", a->random,
-                   "With --faults: so many random combinations of two or three of them instead")
-      ->check(CLI::Range(1, 1'000'000));
-  command->add_option("--seed", a->seed, "Of these combinations")->capture_default_str();
-  command->add_flag("--checks", a->checks,
-                    "Print what the bench checks: name, words, reaction, bound, page");
+  addServing(*command, *a);
+  addInspection(*command, *a);
+  addTables(*command, *a);
   command->add_flag("--json", a->json, "Print results as JSON");
   command->footer(
       "Example, three terminals:\n"
@@ -336,32 +368,7 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
       "not be written, 5 a drive has not said that its torque is off: pull the switch that is "
       "named,\n"
       "130 interrupted.");
-  command->callback([&result, a] {
-    if (a->checks) {
-      result = showChecks(a->json);
-      return;
-    }
-    if (a->commission && (a->faults || a->rehearse)) {
-      result = a->faults ? showCommissioningCases(a->json) : rehearseCommission(a->json);
-      return;
-    }
-    if (a->faults) {
-      result = showRows(a->random > 0 ? rehearseRandomFaults(a->random, a->seed) : rehearseFaults(),
-                        a->json);
-      return;
-    }
-    if (!a->show_record.empty()) {
-      showRecord(a->show_record, a->json);
-      result = ExitCode::kPassed;
-      return;
-    }
-    if (a->config.empty()) throw InputError("hil: give a bench file, e.g. configs/hil/bench.yaml");
-    if (a->budget) {
-      result = showBudget(*a);
-      return;
-    }
-    result = a->check ? showBench(*a) : a->commission ? commissionOpened(*a) : serveBench(*a);
-  });
+  command->callback([&result, a] { result = runHil(*a); });
 }
 
 }  // namespace ballbot

@@ -45,11 +45,14 @@ CommissioningTask turnTask(const BenchConfig& config, int i) {
         fmt::format("Turn {} by hand, one full turn along its arrow, from mark to mark.", d.name);
     return t;
   }
+  // Where there is little room along the arrow, against it.
   const double start = config.commissioning.arm_pose[static_cast<std::size_t>(i - 3)];
-  t.angle = std::min(kArmTurn, kOfItsRange * (d.limits.position_high - start));
-  t.text =
-      fmt::format("Turn {} by hand by {:.0f} deg along its arrow, by a set square; let it rest.",
-                  d.name, t.angle * kDegPerRad);
+  const double along = kOfItsRange * (d.limits.position_high - start);
+  const double against = kOfItsRange * (start - d.limits.position_low);
+  const bool forwards = along >= std::min(kArmTurn, against);
+  t.angle = forwards ? std::min(kArmTurn, along) : -std::min(kArmTurn, against);
+  t.text = fmt::format("Turn {} by hand by {:.0f} deg {} its arrow, by a set square; let it rest.",
+                       d.name, std::abs(t.angle) * kDegPerRad, forwards ? "along" : "against");
   return t;
 }
 

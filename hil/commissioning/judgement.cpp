@@ -161,7 +161,7 @@ Judgement judgeTurn(const BenchConfig& config, const CommissioningTask& task,
   if (done < 0) {
     return wrong(fmt::format(
         "its encoder says {}, the wrong way: sign is {:.0f} and would be {:.0f}, or it was turned "
-        "against its arrow (docs/bench-wiring.md)",
+        "the other way itself (arrows: docs/bench-wiring.md)",
         degrees(m.joint[asked]), d.scaling.sign, -d.scaling.sign));
   }
   Judgement j = judgeRatio(d, task.angle, m.joint[asked], m.motor[asked]);

@@ -84,6 +84,20 @@ CommissioningTask turnOf(int drive, double angle) {
   return t;
 }
 
+TEST(Commissioning, AJointAtItsUpperStopIsTurnedAgainstItsArrow) {
+  BenchConfig config = Rehearsal::defaultConfig();
+  config.drives[4].limits.position_low = -2;
+  config.drives[4].limits.position_high = config.commissioning.arm_pose[1] = 1;
+  const CommissioningTask t = commissioningTasks(config)[5];
+  EXPECT_LT(t.angle, -1);
+  EXPECT_THAT(t.text, HasSubstr("against its arrow"));
+  BenchSample to;
+  to.joint_angle[4] = to.motor_angle[4] = t.angle;
+  EXPECT_EQ(judgeTurn(config, t, moved({}, to)).verdict, Verdict::kGood);
+  to.joint_angle[4] = to.motor_angle[4] = -t.angle;
+  EXPECT_THAT(judgeTurn(config, t, moved({}, to)).words, HasSubstr("sign is 1 and would be -1"));
+}
+
 TEST(HandWatch, CountsFromRestToRestAndTakesTheGyroscopesBiasAway) {
   BenchSample from, to;
   from.joint_angle[2] = 0.3;
