@@ -100,6 +100,7 @@ void BenchMaster::start() noexcept {
     d.misses.clear();
     d.twins.clear();
   }
+  owed_ = {};
   running_ = true;
 }
 
@@ -135,11 +136,20 @@ void BenchMaster::onFrame(int bus, const CanFrame& frame) noexcept {
   if (pdo >= 0) readImu(pdo, frame);
 }
 
+// An adapter that stalled gives the answers of several cycles at once: they are no twin's.
+bool BenchMaster::settle(std::size_t drive, int pdo) noexcept {
+  int& owed = owed_[drive][static_cast<std::size_t>(pdo)];
+  if (owed == 0) return false;
+  --owed;
+  return true;
+}
+
 void BenchMaster::readPdo(int i, int pdo, const CanFrame& frame) noexcept {
   const auto n = static_cast<std::size_t>(i);
   if (!running_) return;
   if (!collecting_) {
     ++late_pdos_;
+    settle(n, pdo);
     return;
   }
   if (static_cast<std::size_t>(pdo) >= config_.inputs.size() ||
@@ -159,7 +169,7 @@ void BenchMaster::readPdo(int i, int pdo, const CanFrame& frame) noexcept {
   if (in(motor_position_)) {
     sample_.motor_angle[n] = scale.motorAngle(motor_position_.field.getSigned(frame));
   }
-  twin_seen_[n] = twin_seen_[n] || (pdos_seen_[n] & 1U << pdo) != 0;
+  if ((pdos_seen_[n] & 1U << pdo) != 0 && !settle(n, pdo)) twin_seen_[n] = true;
   pdos_seen_[n] = static_cast<std::uint8_t>(pdos_seen_[n] | 1U << pdo);
 }
 
@@ -214,11 +224,13 @@ void BenchMaster::endCycle() noexcept {
   if (!running_) return;
   const auto all = static_cast<std::uint8_t>((1U << config_.inputs.size()) - 1);
   for (std::size_t i = 0; i < kDriveCount; ++i) {
-    // An adapter that stalled gives the answers of several cycles at once: they are no twin's.
-    const bool late = drives_[i].stale_cycles > 0;
     drives_[i].stale_cycles = pdos_seen_[i] == all ? 0 : drives_[i].stale_cycles + 1;
     drives_[i].misses.add(pdos_seen_[i] != all);
-    drives_[i].twins.add(twin_seen_[i] && !late);
+    drives_[i].twins.add(twin_seen_[i]);
+    for (std::size_t p = 0; p < config_.inputs.size(); ++p) {
+      int& owed = owed_[i][p];
+      if ((pdos_seen_[i] & 1U << p) == 0 && owed < config_.safety.stale_cycles) ++owed;
+    }
     if (!motor_position_.field) {
       sample_.motor_angle[i] = sample_.joint_angle[i] +
                                sample_.joint_torque[i] / config_.drives[i].scaling.spring_stiffness;

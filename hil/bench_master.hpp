@@ -99,6 +99,7 @@ class BenchMaster {
     PdoField field;
     std::uint8_t pdo = 0;
   };
+  bool settle(std::size_t drive, int pdo) noexcept;
   void readPdo(int drive, int pdo, const CanFrame& frame) noexcept;
   void readImu(int pdo, const CanFrame& frame) noexcept;
   Input findInput(ObjectAddress object) const noexcept;
@@ -109,6 +110,9 @@ class BenchMaster {
   std::array<Drive, kDriveCount> drives_;
   std::array<std::uint8_t, kDriveCount> pdos_seen_{};  ///< in this cycle, a bit each
   std::array<bool, kDriveCount> twin_seen_{};          ///< in this cycle
+  /// PDOs that cycles before have missed and that may still come; as many as may be missing at
+  /// most.
+  std::array<std::array<int, 4>, kDriveCount> owed_{};
   std::optional<CanFrame> foreign_;
   std::uint8_t imu_seen_ = 0, all_imu_pdos_;
   int imu_stale_ = 0;
