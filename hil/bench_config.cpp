@@ -201,6 +201,7 @@ void readDoubts(ConfigReader& in, SafetyConfig& s) {
       in.integerOr("torque_mismatch_cycles", s.torque_mismatch_cycles, {1, 1000});
   s.doubt_cycles = in.integerOr("doubt_cycles", s.doubt_cycles, {1, 1000});
   s.most_misses = in.integerOr("most_misses", s.most_misses, {1, 33});
+  s.torque_repeats = in.integerOr("torque_repeats", s.torque_repeats, {0, 1000});
   s.imu_repeats = in.integerOr("imu_repeats", s.imu_repeats, {0, 1000});
   s.read_back_cycles = in.integerOr("read_back_cycles", s.read_back_cycles, {0, 100'000});
   s.command_repeats = in.integerOr("command_repeats", s.command_repeats, {0, 1e6});

@@ -90,9 +90,10 @@ struct SafetyConfig {
   int torque_mismatch_cycles = 6;       ///< how long
   int doubt_cycles = 3;                 ///< for what is exact: spring, torque demand
   int most_misses = 6;                  ///< cycles of the last 32 without a drive's PDOs
-  int imu_repeats = 6;                  ///< samples equal bit for bit; 0: as many as there are
-  int read_back_cycles = 10;            ///< from one parameter read to the next; 0: none
-  int command_repeats = 8;             ///< commands equal bit for bit; 0: as many as there are
+  int torque_repeats = 8;     ///< cycles of one torque bit for bit while it should move; 0: any
+  int imu_repeats = 6;        ///< samples equal bit for bit; 0: as many as there are
+  int read_back_cycles = 10;  ///< from one parameter read to the next; 0: none
+  int command_repeats = 8;    ///< commands equal bit for bit; 0: as many as there are
 };
 
 struct RealtimeConfig {

@@ -236,6 +236,7 @@ void BenchMaster::endCycle() noexcept {
                                sample_.joint_torque[i] / config_.drives[i].scaling.spring_stiffness;
     }
   }
+  sample_.cycle = cycle_;
   // A counter that stands still is an IMU that hangs, whatever it goes on sending.
   const auto grown = static_cast<std::uint16_t>(imu_pending_counter_ - imu_counter_);
   if (imu_seen_ == all_imu_pdos_ && grown != 0) {

@@ -14,7 +14,8 @@ struct BenchSample {
   DriveArray joint_angle{}, motor_angle{}, joint_velocity{}, joint_torque{};
   DriveArray motor_torque{};   ///< by the motor's current, behind the gear; 0 where not mapped
   std::int64_t imu_count = 0;  ///< IMU samples so far
-  std::int64_t imu_cycle = 0;  ///< cycle in which the last one arrived
+  std::int64_t cycle = 0;      ///< of the master: periods that a late loop skips do not count
+  std::int64_t imu_cycle = 0;  ///< cycle in which the last IMU sample arrived
   std::array<double, 3> accel{}, gyro{};
 };
 

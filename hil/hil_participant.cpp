@@ -1,6 +1,6 @@
 #include "hil/hil_participant.hpp"
 
-#include <cstring>
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -40,7 +40,6 @@ void HilParticipant::enterInitializationMode(SimTime start) {
   digest_ = 0;
   const BenchSample& sample = runner_.sample(0);
   first_imu_count_ = sample.imu_count;
-  first_master_cycle_ = sample.imu_cycle;
   adopt(sample, 0);
 }
 
@@ -81,7 +80,8 @@ void HilParticipant::adopt(const BenchSample& s, std::int64_t cycle) {
     f.joint_torque[i] = s.joint_torque[n];
   }
   f.imu_count = s.imu_count - first_imu_count_ + 1;
-  f.imu_time = start_ + (s.imu_cycle - first_master_cycle_) * period_;
+  // By its age: a loop that skips periods counts fewer cycles than time has passed.
+  f.imu_time = std::max(start_, f.time - (s.cycle - s.imu_cycle) * period_);
   for (int i = 0; i < 3; ++i) {
     f.accel_B[i] = s.accel[static_cast<std::size_t>(i)];
     f.gyro_WB_B[i] = s.gyro[static_cast<std::size_t>(i)];

@@ -38,8 +38,7 @@ class HilParticipant final : public Participant {
   BenchRunner& runner_;
   SimDuration period_;
   SimTime start_{};
-  std::int64_t cycle_ = 0;
-  std::int64_t first_imu_count_ = 0, first_master_cycle_ = 0;
+  std::int64_t cycle_ = 0, first_imu_count_ = 0;
   SensorFrame sensors_;
   std::uint64_t digest_ = 0;
 };

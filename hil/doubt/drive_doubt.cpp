@@ -15,8 +15,9 @@ constexpr double kDriftMemory = 0.5;
 constexpr double kHardestAcceleration = 200;
 // The model begins at a torque that it does not know.
 constexpr int kSettlingCycles = 12;
-// A felt torque that stays the same bit for bit while the model says it moves.
-constexpr int kRepeatCycles = 8;
+// A felt torque that stays the same bit for bit while the model says it moves: cycles count from
+// where the model has moved at all, and it must move this far.
+constexpr double kMovingCounts = 2;
 constexpr double kRepeatCounts = 8;
 constexpr double kEchoCounts = 1;
 
@@ -130,13 +131,15 @@ Finding DriveDoubt::checkTorque(const DriveSeen& seen, double told) noexcept {
     repeat_low_ = repeat_high_ = expected;
     return {};
   }
-  ++repeats_;
   repeat_low_ = std::min(repeat_low_, expected);
   repeat_high_ = std::max(repeat_high_, expected);
   const double unit =
       config_.drives[static_cast<std::size_t>(drive_)].scaling.torque_reference / 1000;
   const double moved = repeat_high_ - repeat_low_;
-  if (repeats_ < kRepeatCycles || moved < kRepeatCounts * unit) return {};
+  if (moved >= kMovingCounts * unit) ++repeats_;
+  if (s.torque_repeats == 0 || repeats_ < s.torque_repeats || moved < kRepeatCounts * unit) {
+    return {};
+  }
   return found(BenchFault::kTorqueRepeats, moved, kRepeatCounts * unit);
 }
 

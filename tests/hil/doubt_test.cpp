@@ -135,6 +135,29 @@ TEST(DriveDoubt, SeesEachOfItsFaultsWithinItsBound) {
   });
 }
 
+// Holding still, a torque is the same for as long as one likes; cycles count from where it should
+// move. A bus by the wall clock brings the first change two cycles late.
+TEST(DriveDoubt, ATorqueThatStoodStillMayBeginToMoveLate) {
+  const BenchConfig c = config();
+  for (const bool ever : {true, false}) {
+    DriveDoubt doubt(c, 0);
+    Honest drive(c);
+    std::array<double, 2> late{};
+    BenchFault fault = BenchFault::kNone;
+    int n = 0;
+    for (; n < 200 && fault == BenchFault::kNone; ++n) {
+      drive.step(n < 100 ? 0 : 12);
+      DriveSeen seen = drive.seen;
+      seen.torque = ever ? late[0] : 0;
+      seen.motor_angle = seen.angle + seen.torque / drive.scale.spring_stiffness;
+      late = {late[1], drive.seen.torque};
+      fault = doubt.check(seen, drive.told).fault;
+    }
+    EXPECT_EQ(fault, ever ? BenchFault::kNone : BenchFault::kTorqueRepeats);
+    EXPECT_LE(n, ever ? 200 : 100 + c.safety.torque_repeats + 2);
+  }
+}
+
 TEST(DriveDoubt, AGapMayBringAJointFurtherButNotAnywhere) {
   for (const double jump : {0.0, 0.5}) {
     const auto [cycles, found] = provoke([jump](DriveSeen& s, int n) {
