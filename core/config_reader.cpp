@@ -138,7 +138,7 @@ std::string ConfigReader::textOr(const std::string& key, std::string fallback) {
   return has(key) ? text(key) : std::move(fallback);
 }
 
-void ConfigReader::readNumbers(const std::string& key, double* out, std::size_t count, Range range) {
+void ConfigReader::numbers(const std::string& key, double* out, std::size_t count, Range range) {
   const ConfigNode& node = require(key);
   if (node.kind() != ConfigNode::Kind::kList || node.items().size() != count) {
     const std::string got = node.kind() == ConfigNode::Kind::kList
@@ -152,15 +152,15 @@ void ConfigReader::readNumbers(const std::string& key, double* out, std::size_t 
   }
 }
 
-std::ptrdiff_t ConfigReader::readChoice(const std::string& key,
-                                        const std::vector<std::string>& names) {
+std::size_t ConfigReader::chooseIndex(const std::string& key,
+                                      const std::vector<std::string>& names) {
   const std::string value = text(key);
   const auto it = std::find(names.begin(), names.end(), value);
   if (it == names.end()) {
     throw InputError(fmt::format("{}: {} is '{}', must be one of: {}",
                                  toText(require(key).where()), key, value, fmt::join(names, ", ")));
   }
-  return it - names.begin();
+  return static_cast<std::size_t>(it - names.begin());
 }
 
 SimDuration ConfigReader::duration(const std::string& key, Range range) {

@@ -51,9 +51,10 @@ class ConfigReader {
   template <std::size_t N>
   std::array<double, N> numbers(const std::string& key, Range range = {}) {
     std::array<double, N> out;
-    readNumbers(key, out.data(), N, range);
+    numbers(key, out.data(), N, range);
     return out;
   }
+  void numbers(const std::string& key, double* out, std::size_t count, Range range);
   template <std::size_t N>
   std::array<double, N> numbersOr(const std::string& key, const std::array<double, N>& fallback,
                                   Range range = {}) {
@@ -66,13 +67,15 @@ class ConfigReader {
               std::initializer_list<std::pair<const char*, Enum>> choices) {
     std::vector<std::string> names;
     for (const auto& c : choices) names.emplace_back(c.first);
-    return (choices.begin() + readChoice(key, names))->second;
+    return (choices.begin() + chooseIndex(key, names))->second;
   }
   template <typename Enum>
   Enum choiceOr(const std::string& key, Enum fallback,
                 std::initializer_list<std::pair<const char*, Enum>> choices) {
     return has(key) ? choice<Enum>(key, choices) : fallback;
   }
+
+  std::size_t chooseIndex(const std::string& key, const std::vector<std::string>& names);
 
   /// A period or length of time written in the key's own unit: the key must end in _s, _ms or _us.
   /// It must be a whole number of nanoseconds.
@@ -95,8 +98,6 @@ class ConfigReader {
 
  private:
   const ConfigNode& require(const std::string& key);
-  void readNumbers(const std::string& key, double* out, std::size_t count, Range range);
-  std::ptrdiff_t readChoice(const std::string& key, const std::vector<std::string>& names);
 
   const ConfigNode* node_;
   std::string path_;

@@ -54,7 +54,7 @@ class Lifecycle final : public Participant {
   void exitInitializationMode() override;
   /// @throw CallOrderError also if `now` is not the time reached or `step` is not positive;
   ///        NumericalError if the command is not finite, LostParticipantError if a sensor value
-  ///        after the step is impossible (cosim/finite.hpp).
+  ///        after the step is impossible (model/signal_check.hpp).
   void doStep(SimTime now, SimDuration step, const ActuatorCommand& command) override;
   void terminate() override;
   void reset() override;

@@ -4,14 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "ballbot_msgs/actuator_command.hpp"
-#include "ballbot_msgs/plan_report.hpp"
-#include "ballbot_msgs/sensor_frame.hpp"
-#include "ballbot_msgs/state_estimate.hpp"
 #include "ballbot_msgs/tick_digests.hpp"
-#include "ballbot_msgs/truth_frame.hpp"
 #include "messages/channels.hpp"
 #include "messages/wire.hpp"
+#include "model/reports.hpp"
+#include "model/signals.hpp"
+#include "model/truth.hpp"
 
 namespace ballbot {
 
@@ -83,13 +81,18 @@ class LogReader {
   LogDamage damage_;
 };
 
+struct RecordedCommand {
+  SimTime time{};  ///< from which it acts
+  ActuatorCommand command;
+};
+
 /// A whole log in memory, typed, in the order of time.
 struct RunLog {
-  std::vector<ballbot_msgs::sensor_frame> sensors;
-  std::vector<ballbot_msgs::truth_frame> truth;
-  std::vector<ballbot_msgs::state_estimate> estimates;
-  std::vector<ballbot_msgs::plan_report> plans;
-  std::vector<ballbot_msgs::actuator_command> commands;
+  std::vector<SensorFrame> sensors;
+  std::vector<TruthFrame> truth;
+  std::vector<EstimateFrame> estimates;
+  std::vector<PlanFrame> plans;
+  std::vector<RecordedCommand> commands;
   std::vector<ballbot_msgs::tick_digests> digests;
   std::int64_t unknown = 0;     ///< events of other channels
   std::string unknown_channel;  ///< the first of them

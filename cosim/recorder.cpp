@@ -48,13 +48,11 @@ void Recorder::record(const Tick& tick) {
     take(Channel::kTruth, tick.time, options_.truth, truth_);
   }
   if (tick.control.has_estimate) {
-    estimate_ = tick.control.estimate;
-    estimate_.tick = tick.number;
+    toMessage(tick.control.estimate, tick.number, estimate_);
     take(Channel::kEstimate, tick.time, options_.estimate, estimate_);
   }
   if (tick.control.has_plan) {
-    plan_ = tick.control.plan;
-    plan_.tick = tick.number;
+    toMessage(tick.control.plan, tick.number, plan_);
     take(Channel::kPlan, tick.time, options_.plan, plan_);
   }
   toMessage(tick.control.command, tick.number, tick.time, command_);

@@ -6,7 +6,9 @@
 #include <string>
 
 #include "ballbot_msgs/actuator_command.hpp"
+#include "ballbot_msgs/plan_report.hpp"
 #include "ballbot_msgs/sensor_frame.hpp"
+#include "ballbot_msgs/state_estimate.hpp"
 #include "ballbot_msgs/tick_digests.hpp"
 #include "ballbot_msgs/truth_frame.hpp"
 #include "core/digest.hpp"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "cosim/finite.hpp"
+#include "model/signal_check.hpp"
 #include "cosim/session_id.hpp"
 #include "messages/convert.hpp"
 

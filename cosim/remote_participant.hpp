@@ -37,7 +37,7 @@ struct RemoteOptions {
 /// @throw InputError the far end refused: other version, other configuration, in use by another
 ///        run, or two participants answer
 /// @throw NumericalError a reply says what cannot be: another time than the one asked for, a number
-///        that is not finite or beyond all reason (cosim/finite.hpp)
+///        that is not finite or beyond all reason (model/signal_check.hpp)
 class RemoteParticipant final : public Participant {
  public:
   /// `transport` must outlive this.

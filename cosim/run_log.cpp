@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cosim/log_reader.hpp"
+#include "messages/convert.hpp"
 
 namespace ballbot {
 namespace {
@@ -21,6 +22,18 @@ std::int64_t stampOf(const ballbot_msgs::tick_digests& message) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(message.first_time_ns) +
                                    static_cast<std::uint64_t>(offset)) /
          1000;
+}
+
+template <typename Message, typename Frame>
+void unpack(const Message& message, Frame& out) {
+  fromMessage(message, out);
+}
+void unpack(ballbot_msgs::tick_digests& message, ballbot_msgs::tick_digests& out) {
+  out = std::move(message);
+}
+void unpack(const ballbot_msgs::actuator_command& message, RecordedCommand& out) {
+  out.time = simTimeFromNs(message.sim_time_ns);
+  fromMessage(message, out.command);
 }
 
 bool isTypeOfRun(std::int64_t fingerprint) {
@@ -53,18 +66,19 @@ class RunLogReader {
   };
 
   void take() {
+    using namespace ballbot_msgs;
     if (event_.channel == channelName(Channel::kSensors)) {
-      keep(log_.sensors);
+      keep<sensor_frame>(log_.sensors);
     } else if (event_.channel == channelName(Channel::kTruth)) {
-      keep(log_.truth);
+      keep<truth_frame>(log_.truth);
     } else if (event_.channel == channelName(Channel::kEstimate)) {
-      keep(log_.estimates);
+      keep<state_estimate>(log_.estimates);
     } else if (event_.channel == channelName(Channel::kPlan)) {
-      keep(log_.plans);
+      keep<plan_report>(log_.plans);
     } else if (event_.channel == channelName(Channel::kCommand)) {
-      keep(log_.commands);
+      keep<actuator_command>(log_.commands);
     } else if (event_.channel == kTickDigestsChannel) {
-      keep(log_.digests);
+      keep<tick_digests>(log_.digests);
     } else if (isTypeOfRun(fingerprint(event_.data.data(), event_.data.size()))) {
       lose("a message of a run stands on a channel that no run has");
     } else if (++log_.unknown == 1) {
@@ -72,8 +86,8 @@ class RunLogReader {
     }
   }
 
-  template <typename Message>
-  void keep(std::vector<Message>& list) {
+  template <typename Message, typename Kept>
+  void keep(std::vector<Kept>& list) {
     Message message{};
     if (!event_.decode(message)) {
       lose(fmt::format("its {} message is damaged", event_.channel));
@@ -87,7 +101,8 @@ class RunLogReader {
                        fmt::format("its {} message is stamped {} us and is of {} us",
                                    event_.channel, event_.timestamp_us, stampOf(message)));
     }
-    list.push_back(std::move(message));
+    list.emplace_back();
+    unpack(message, list.back());
   }
 
   void lose(const std::string& what) {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "cosim/finite.hpp"
+#include "model/signal_check.hpp"
 
 namespace ballbot {
 namespace {

@@ -2,11 +2,10 @@
 
 #include <string>
 
-#include "ballbot_msgs/plan_report.hpp"
-#include "ballbot_msgs/state_estimate.hpp"
 #include "core/state_blob.hpp"
 #include "core/time.hpp"
 #include "cosim/schedule.hpp"
+#include "model/reports.hpp"
 #include "model/signals.hpp"
 
 namespace ballbot {
@@ -16,9 +15,9 @@ struct ControlOutput {
   ActuatorCommand command;  ///< acts from now on; keeps its value until it is changed
   // For the record only. The master clears both flags before each call.
   bool has_estimate = false;
-  ballbot_msgs::state_estimate estimate{};
+  EstimateFrame estimate;
   bool has_plan = false;
-  ballbot_msgs::plan_report plan{};
+  PlanFrame plan;
 };
 
 /// What a StepMaster steps a participant with. There is no way in here for a TruthFrame: the

@@ -15,30 +15,20 @@ constexpr double kBridged_s = 0.1;
 constexpr double kSmallest_N = 0.05;
 constexpr double kWallThickness = 0.06;  // as drawn [m]
 
-double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
-
-/// The message that was the newest at each of ascending times.
-template <typename Message>
+/// The frame that was the newest at each of ascending times.
+template <typename Frame>
 class Newest {
  public:
-  explicit Newest(const std::vector<Message>& messages) : messages_(messages) {}
-  const Message* at(std::int64_t time_ns) {
-    while (next_ < messages_.size() && messages_[next_].sim_time_ns <= time_ns) ++next_;
-    return next_ > 0 ? &messages_[next_ - 1] : nullptr;
+  explicit Newest(const std::vector<Frame>& frames) : frames_(frames) {}
+  const Frame* at(SimTime time) {
+    while (next_ < frames_.size() && frames_[next_].time <= time) ++next_;
+    return next_ > 0 ? &frames_[next_ - 1] : nullptr;
   }
 
  private:
-  const std::vector<Message>& messages_;
+  const std::vector<Frame>& frames_;
   std::size_t next_ = 0;
 };
-
-TruthFrame truthOf(const ballbot_msgs::truth_frame& m) {
-  TruthFrame truth;
-  truth.state << Eigen::Map<const PositionVector>(m.q), Eigen::Map<const VelocityVector>(m.nu);
-  truth.p_WE = Eigen::Map<const Vector3>(m.p_WE);
-  truth.contact_force_W = Eigen::Map<const Vector3>(m.contact_force_W);
-  return truth;
-}
 
 ReplayPose poseOf(const Vector3& p_W, const Matrix3& R) {
   const Eigen::Quaterniond q(R);
@@ -59,9 +49,9 @@ std::array<double, 3> slabSize(const Face& face, double thickness) {
 
 std::vector<ReportPhase> contactPhases(const RunLog& log) {
   std::vector<ReportPhase> phases;
-  for (const auto& m : log.truth) {
-    if (m.contact_phase == 0) continue;
-    const double t = seconds(m.sim_time_ns);
+  for (const TruthFrame& truth : log.truth) {
+    if (truth.contact_phase == ContactPhase::kNone) continue;
+    const double t = toSeconds(truth.time);
     if (phases.empty() || t - phases.back().end_s > kBridged_s) {
       phases.push_back({ReportPhase::Kind::kContact, t, t, "contact"});
     }
@@ -81,44 +71,42 @@ std::optional<PlotGroup> contactGroup(const RunLog& log, const RobotParameters& 
   PlotSeries door{"door", SeriesStyle::kMeasured, 3, {}, {}};
   bool any = false;
   Vector3 along = Vector3::Zero();
-  for (const auto& plan : log.plans) {
-    const Vector3 first = Eigen::Map<const Vector3>(plan.contact_asked_W);
-    if (first.norm() > kSmallest_N) {
-      along = first.normalized();
+  for (const PlanFrame& plan : log.plans) {
+    if (plan.contact_asked_W.norm() > kSmallest_N) {
+      along = plan.contact_asked_W.normalized();
       break;
     }
   }
-  Newest<ballbot_msgs::plan_report> plans(log.plans);
-  Newest<ballbot_msgs::state_estimate> estimates(log.estimates);
-  for (const auto& m : log.truth) {
-    const TruthFrame truth = truthOf(m);
-    const auto* plan = plans.at(m.sim_time_ns);
-    const auto* estimate = estimates.at(m.sim_time_ns);
-    const Vector3 wanted =
-        plan ? Vector3(Eigen::Map<const Vector3>(plan->contact_asked_W)) : Vector3::Zero();
+  Newest<PlanFrame> plans(log.plans);
+  Newest<EstimateFrame> estimates(log.estimates);
+  for (const TruthFrame& truth : log.truth) {
+    const auto* plan = plans.at(truth.time);
+    const auto* estimate = estimates.at(truth.time);
+    const Vector3 wanted = plan ? plan->contact_asked_W : Vector3::Zero();
     if (wanted.norm() > kSmallest_N) along = wanted.normalized();
-    any = any || m.contact_phase != 0 || wanted.norm() > kSmallest_N;
+    any = any || truth.contact_phase != ContactPhase::kNone || wanted.norm() > kSmallest_N;
     const Vector3 along_now = along.isZero(0) ? Vector3(-Vector3::UnitX()) : along;
     const double normal = truth.contact_force_W.dot(along_now);
     const Vector3 push = Vector3(-along_now.x(), -along_now.y(), 0).normalized();
     const Lean lean = leanOf(robot, truth, push);
     for (PlotSeries* s : {&asked, &force, &sensed, &across, &shift, &balance, &door}) {
-      s->t.push_back(seconds(m.sim_time_ns));
+      s->t.push_back(toSeconds(truth.time));
     }
     asked.values.push_back(wanted.norm());
     force.values.push_back(normal);
-    sensed.values.push_back(
-        estimate ? Eigen::Map<const Vector3>(estimate->contact_force_W).dot(along_now) : 0);
+    sensed.values.push_back(estimate ? estimate->contact_force_W.dot(along_now) : 0);
     across.values.push_back((truth.contact_force_W - normal * along_now).norm());
     shift.values.push_back(1e3 * lean.shift);
     balance.values.push_back(1e3 * lean.balanced_shift);
-    door.values.push_back(kDegPerRad * m.door_angle);
+    door.values.push_back(kDegPerRad * truth.door_angle);
   }
   if (!any) return std::nullopt;
-  PlotGroup group{"Contact",
-                  "Force on the end-effector along the one asked for. The robot leans until its "
-                  "centre of mass stands so far before the ball that its weight balances the force.",
-                  {}, {}};
+  PlotGroup group{
+      "Contact",
+      "Force on the end-effector along the one asked for. The robot leans until its "
+      "centre of mass stands so far before the ball that its weight balances the force.",
+      {},
+      {}};
   group.axes.push_back({"force", "N", {sensed, asked, force, across}, {}});
   group.axes.push_back({"COM before ball", "mm", {balance, shift}, {}});
   if (surroundings.door) group.axes.push_back({"door angle", "deg", {door}, {}});
@@ -135,14 +123,16 @@ std::vector<ReplayObject> replayObjects(const RunLog& log,
   if (surroundings.door) {
     const DoorParameters& p = *surroundings.door;
     ReplayObject leaf{"door", slabSize(doorFace(p, {}), p.thickness), {}};
-    for (const auto& m : log.truth) {
-      leaf.poses.push_back(slabBehind(doorFace(p, {m.door_angle, 0}), p.thickness));
+    for (const TruthFrame& truth : log.truth) {
+      leaf.poses.push_back(slabBehind(doorFace(p, {truth.door_angle, 0}), p.thickness));
     }
     objects.push_back(std::move(leaf));
     // The post it hangs on, so that one sees which side that is.
     constexpr double kPost = 0.06;
-    objects.push_back({"door post", {kPost, kPost, p.height},
-                       {poseOf(Vector3(p.hinge.x(), p.hinge.y(), 0.5 * p.height), Matrix3::Identity())}});
+    objects.push_back(
+        {"door post",
+         {kPost, kPost, p.height},
+         {poseOf(Vector3(p.hinge.x(), p.hinge.y(), 0.5 * p.height), Matrix3::Identity())}});
   }
   return objects;
 }

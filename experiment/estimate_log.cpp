@@ -1,5 +1,6 @@
 #include "experiment/estimate_log.hpp"
 
+#include <cstring>
 #include <limits>
 
 #include "core/angle.hpp"
@@ -8,8 +9,7 @@
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/robot_sensing.hpp"
 #include "experiment/scenario_frame.hpp"
-#include "messages/convert.hpp"
-#include "messages/wire.hpp"
+#include "model/signal_table.hpp"
 
 namespace ballbot {
 namespace {
@@ -19,13 +19,22 @@ class ErrorTable {
  public:
   ErrorTable() {
     table_.name = "estimation_error";
-    const char* const columns[][2] = {
-        {"time_s", "s"},           {"tilt_x", "deg"},         {"tilt_y", "deg"},
-        {"vx", "m/s"},             {"vy", "m/s"},             {"px", "m"},
-        {"py", "m"},               {"yaw", "deg"},            {"accel_bias_x", "m/s^2"},
-        {"accel_bias_y", "m/s^2"}, {"accel_bias_z", "m/s^2"}, {"gyro_bias_x", "rad/s"},
-        {"gyro_bias_y", "rad/s"},  {"gyro_bias_z", "rad/s"},  {"nis", ""},
-        {"nis_degrees", ""}};
+    const char* const columns[][2] = {{"time_s", "s"},
+                                      {"tilt_x", "deg"},
+                                      {"tilt_y", "deg"},
+                                      {"vx", "m/s"},
+                                      {"vy", "m/s"},
+                                      {"px", "m"},
+                                      {"py", "m"},
+                                      {"yaw", "deg"},
+                                      {"accel_bias_x", "m/s^2"},
+                                      {"accel_bias_y", "m/s^2"},
+                                      {"accel_bias_z", "m/s^2"},
+                                      {"gyro_bias_x", "rad/s"},
+                                      {"gyro_bias_y", "rad/s"},
+                                      {"gyro_bias_z", "rad/s"},
+                                      {"nis", ""},
+                                      {"nis_degrees", ""}};
     for (const auto& column : columns) table_.columns.push_back({column[0], column[1], {}});
     for (int i = 0; i < kRejectionCount; ++i) {
       table_.columns.push_back(
@@ -63,24 +72,27 @@ class ErrorTable {
 /// Holds new estimates against the recorded ones of the same time, in the order of time.
 class OnlineComparison {
  public:
-  explicit OnlineComparison(const std::vector<ballbot_msgs::state_estimate>& recorded)
-      : recorded_(recorded) {}
+  explicit OnlineComparison(const std::vector<EstimateFrame>& recorded)
+      : recorded_(recorded),
+        row_(rowSize(estimateSignals())),
+        recorded_row_(rowSize(estimateSignals())) {}
 
-  void add(const ballbot_msgs::state_estimate& estimate, LogEstimate& out) {
-    while (next_ < recorded_.size() && recorded_[next_].sim_time_ns < estimate.sim_time_ns) ++next_;
-    if (next_ == recorded_.size() || recorded_[next_].sim_time_ns != estimate.sim_time_ns) return;
+  void add(const EstimateFrame& estimate, LogEstimate& out) {
+    while (next_ < recorded_.size() && recorded_[next_].time < estimate.time) ++next_;
+    if (next_ == recorded_.size() || recorded_[next_].time != estimate.time) return;
     ++out.compared;
-    encodeMessage(estimate, bytes_);
-    encodeMessage(recorded_[next_], recorded_bytes_);
-    if (bytes_ != recorded_bytes_ && !out.first_difference) {
-      out.first_difference = simTimeFromNs(estimate.sim_time_ns);
+    readSignals(estimateSignals(), estimate, row_.data());
+    readSignals(estimateSignals(), recorded_[next_], recorded_row_.data());
+    const std::size_t size = sizeof(double) * row_.size();
+    if (std::memcmp(row_.data(), recorded_row_.data(), size) != 0 && !out.first_difference) {
+      out.first_difference = estimate.time;
     }
   }
 
  private:
-  const std::vector<ballbot_msgs::state_estimate>& recorded_;
+  const std::vector<EstimateFrame>& recorded_;
   std::size_t next_ = 0;
-  Bytes bytes_, recorded_bytes_;
+  std::vector<double> row_, recorded_row_;
 };
 
 }  // namespace
@@ -88,9 +100,8 @@ class OnlineComparison {
 LogEstimate estimateLog(const Scenario& scenario, const RunLog& log) {
   if (log.sensors.empty()) {
     throw InputError("the log holds no sensor frames; " +
-                     (log.damage.none()
-                          ? std::string("was recording.sensors_period_ms negative?")
-                          : "it is " + log.damage.text()));
+                     (log.damage.none() ? std::string("was recording.sensors_period_ms negative?")
+                                        : "it is " + log.damage.text()));
   }
   RobotSensing sensing(scenario);
   const SimDuration period = scenario.rates.estimator;
@@ -100,37 +111,30 @@ LogEstimate estimateLog(const Scenario& scenario, const RunLog& log) {
   OnlineComparison comparison(log.estimates);
   LogEstimate out;
   out.has_truth = !log.truth.empty();
-  auto truth_message = log.truth.begin();
+  auto truth = log.truth.begin();
   std::int64_t last_period = -1;
-  for (const ballbot_msgs::sensor_frame& message : log.sensors) {
-    SensorFrame frame;
-    fromMessage(message, frame);
+  for (const SensorFrame& frame : log.sensors) {
     const std::int64_t in_period = frame.time.time_since_epoch() / period;
     if (in_period <= last_period) continue;
     last_period = in_period;
     sensing.update(frame);
-    ballbot_msgs::state_estimate estimate_message{};
-    sensing.write(frame.time, estimate_message);
-    estimate_message.tick = message.tick;
-    comparison.add(estimate_message, out);
-    out.estimates.push_back(estimate_message);
+    EstimateFrame estimate;
+    sensing.write(frame.time, estimate);
+    comparison.add(estimate, out);
+    out.estimates.push_back(estimate);
 
-    while (truth_message != log.truth.end() && truth_message->sim_time_ns < toNs(frame.time)) {
-      ++truth_message;
-    }
-    const bool known =
-        truth_message != log.truth.end() && truth_message->sim_time_ns == toNs(frame.time);
+    while (truth != log.truth.end() && truth->time < frame.time) ++truth;
+    const bool known = truth != log.truth.end() && truth->time == frame.time;
     if (known) {
-      TruthFrame truth;
-      fromMessage(*truth_message, truth);
-      errors.add(home.see(truth), stateOf(estimate_message));
+      errors.add(home.see(*truth), estimate.state);
       if (const auto own = sensing.estimator().selfAssessment()) errors.addConsistency(*own);
     }
     table.add(frame.time, known && errors.started() ? &errors.last() : nullptr,
               sensing.estimator());
   }
   out.metrics = errors.values();
-  for (const auto& count : rejectionMetrics(sensing.estimator().rejections())) out.metrics.insert(count);
+  for (const auto& count : rejectionMetrics(sensing.estimator().rejections()))
+    out.metrics.insert(count);
   out.errors = table.take();
   return out;
 }

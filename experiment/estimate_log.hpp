@@ -14,7 +14,7 @@ namespace ballbot {
 
 /// What an estimator makes of recorded sensors.
 struct LogEstimate {
-  std::vector<ballbot_msgs::state_estimate> estimates;
+  std::vector<EstimateFrame> estimates;
   /// Under their documented names (docs/metrics.md): errors where the log holds the truth, the
   /// filter's own statistics, and rejections.
   std::map<std::string, double> metrics;

@@ -6,6 +6,7 @@
 
 #include "core/angle.hpp"
 #include "core/config_node.hpp"
+#include "core/key_unit.hpp"
 #include "experiment/build_info.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/text_file.hpp"
@@ -19,8 +20,16 @@ namespace {
 /// Innovations are drawn as means over so many updates: single ones scatter over decades.
 constexpr std::size_t kInnovationWindow = 100;
 
-/// Places in state_estimate.sigma.
-enum SigmaIndex : int { kSigmaPx, kSigmaPy, kSigmaTiltX, kSigmaTiltY, kSigmaYaw, kSigmaVx, kSigmaVy };
+/// Places in EstimateFrame::sigma.
+enum SigmaIndex : int {
+  kSigmaPx,
+  kSigmaPy,
+  kSigmaTiltX,
+  kSigmaTiltY,
+  kSigmaYaw,
+  kSigmaVx,
+  kSigmaVy
+};
 
 PlotSeries columnSeries(const LogTable& table, const std::string& column, const std::string& name,
                         int channel) {
@@ -32,7 +41,7 @@ void addBounds(const LogEstimate& e, int sigma, double scale, int channel, PlotA
   for (const double sign : {2.0, -2.0}) {
     PlotSeries bound{sign > 0 ? "two sigma" : "", SeriesStyle::kReference, channel, {}, {}};
     for (const auto& m : e.estimates) {
-      bound.t.push_back(1e-9 * static_cast<double>(m.sim_time_ns));
+      bound.t.push_back(toSeconds(m.time));
       bound.values.push_back(sign * scale * m.sigma[sigma]);
     }
     axes.series.push_back(std::move(bound));
@@ -55,8 +64,8 @@ PlotGroup errorGroup(const LogEstimate& e) {
           "Truth less estimate. Nineteen of twenty samples of what the sensors can see, tilt and "
           "velocity, should lie between the dashed lines. Position and yaw cannot be seen without "
           "an external pose: their bounds grow.",
-          {errorAxes(e, "tilt error", "deg",
-                     {{"tilt_x", kSigmaTiltX}, {"tilt_y", kSigmaTiltY}}, kDegPerRad),
+          {errorAxes(e, "tilt error", "deg", {{"tilt_x", kSigmaTiltX}, {"tilt_y", kSigmaTiltY}},
+                     kDegPerRad),
            errorAxes(e, "velocity error", "m/s", {{"vx", kSigmaVx}, {"vy", kSigmaVy}}, 1),
            errorAxes(e, "position error", "m", {{"px", kSigmaPx}, {"py", kSigmaPy}}, 1),
            errorAxes(e, "yaw error", "deg", {{"yaw", kSigmaYaw}}, kDegPerRad)},
@@ -72,7 +81,10 @@ PlotGroup biasGroup(const LogEstimate& e) {
     gyro.series.push_back(columnSeries(e.errors, std::string("gyro_bias_") + axis, axis, channel));
     ++channel;
   }
-  return {"Biases", "As estimated; they settle within seconds once the robot moves.", {accel, gyro}, {}};
+  return {"Biases",
+          "As estimated; they settle within seconds once the robot moves.",
+          {accel, gyro},
+          {}};
 }
 
 /// NIS over its degrees of freedom, which should scatter about one.
@@ -106,7 +118,10 @@ PlotGroup rejectionGroup(const LogEstimate& e) {
   for (const auto& [reason, count] : rejectionsAmong(e.metrics)) {
     axes.series.push_back(columnSeries(e.errors, "rejected_" + reason, reason, channel++ % 6));
   }
-  return {"Rejections", "A step is a fault; docs/troubleshooting says what each name means.", {axes}, {}};
+  return {"Rejections",
+          "A step is a fault; docs/troubleshooting says what each name means.",
+          {axes},
+          {}};
 }
 
 std::string verdictText(const LogEstimate& e) {
@@ -117,8 +132,8 @@ std::string verdictText(const LogEstimate& e) {
 
 }  // namespace
 
-void writeEstimateReport(const Scenario& scenario, const LogEstimate& e,
-                         bool should_be_identical, const std::string& path) {
+void writeEstimateReport(const Scenario& scenario, const LogEstimate& e, bool should_be_identical,
+                         const std::string& path) {
   ReportData data;
   data.title = "Estimate of " + scenario.name;
   data.subtitle = "The recorded sensors, played to the estimator again.";
@@ -128,9 +143,10 @@ void writeEstimateReport(const Scenario& scenario, const LogEstimate& e,
   data.headline = {{"estimates", std::to_string(e.estimates.size())},
                    {"rejected", rejectionText(rejected)}};
   for (const auto& [name, value] : e.metrics) {
-    if (name.rfind("rejected_", 0) != 0) data.metrics.push_back({"", name, value, unitOfMetric(name)});
+    if (name.rfind("rejected_", 0) != 0) data.metrics.push_back({"", name, value, unitOfKey(name)});
   }
-  for (const auto& [reason, count] : rejected) data.metrics.push_back({"Rejected", reason, count, ""});
+  for (const auto& [reason, count] : rejected)
+    data.metrics.push_back({"Rejected", reason, count, ""});
   if (e.has_truth) data.groups.push_back(errorGroup(e));
   if (e.metrics.count("nis_mean")) {
     data.groups.push_back(biasGroup(e));
@@ -142,13 +158,13 @@ void writeEstimateReport(const Scenario& scenario, const LogEstimate& e,
         {ReportPhase::Kind::kHold, 0, toSeconds(scenario.release), "held in the stand"});
   }
   for (const Fault& fault : scheduledFaults(scenario.tree)) {
-    data.phases.push_back({ReportPhase::Kind::kFault, toSeconds(fault.start),
-                           toSeconds(fault.end()), toText(fault)});
+    data.phases.push_back(
+        {ReportPhase::Kind::kFault, toSeconds(fault.start), toSeconds(fault.end()), toText(fault)});
   }
   for (const auto& [key, value] : buildInfo()) data.manifest.push_back({key, value});
   data.documents = {{"estimator", toYaml(scenario.section("estimator"))}};
   data.start_s = 0;
-  data.end_s = 1e-9 * static_cast<double>(e.estimates.back().sim_time_ns);
+  data.end_s = toSeconds(e.estimates.back().time);
   writeReport(data, readTextFile(scenario.urdf_path), path);
 }
 

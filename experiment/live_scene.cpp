@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-ReportReplay replayOf(const ballbot_msgs::truth_frame& truth, const RobotParameters& robot,
+ReportReplay replayOf(const TruthFrame& truth, const RobotParameters& robot,
                       const std::vector<Push>& pushes, const EeReference& reference,
                       const SurroundingsParameters& surroundings) {
   RunLog log;
@@ -64,7 +64,8 @@ std::string LiveScene::description() const {
   }
   for (const auto& force : replay.forces) {
     out["forces"].push_back(
-        {{"name", force.name}, {"kind", force.kind == ReportPhase::Kind::kPush ? "push" : "contact"}});
+        {{"name", force.name},
+         {"kind", force.kind == ReportPhase::Kind::kPush ? "push" : "contact"}});
   }
   out["objects"] = Json::array();
   for (const auto& object : replay.objects) {
@@ -76,14 +77,14 @@ std::string LiveScene::description() const {
   return jsonText(out, -1);
 }
 
-std::string LiveScene::frame(const ballbot_msgs::truth_frame& truth) {
-  const double t = 1e-9 * static_cast<double>(truth.sim_time_ns);
+std::string LiveScene::frame(const TruthFrame& truth) {
+  const double t = toSeconds(truth.time);
   if (!started_ || t < last_s_) ball_.setIdentity();  // the first frame, or another run
   const double dt = started_ && t > last_s_ ? t - last_s_ : 0;
   started_ = true;
   last_s_ = t;
-  const Vector3 w =
-      OmniwheelKinematics::rollingAngularVelocity(truth.nu[0], truth.nu[1], robot_.ball.radius);
+  const Vector3 w = OmniwheelKinematics::rollingAngularVelocity(
+      truth.state[kPositionDim + kBallVx], truth.state[kPositionDim + kBallVy], robot_.ball.radius);
   ball_ = (Eigen::Quaterniond(expSO3(w * dt)) * ball_).normalized();
 
   ReportReplay replay = replayOf(truth, robot_, pushes_, reference_, surroundings_);
@@ -103,12 +104,10 @@ std::string LiveScene::frame(const ballbot_msgs::truth_frame& truth) {
   }
   for (const auto& object : replay.objects) append(objects, object.poses.front());
 
-  StateVector x;
-  x << Eigen::Map<const PositionVector>(truth.q), Eigen::Map<const VelocityVector>(truth.nu);
-  const double pushed = Eigen::Map<const Vector3>(truth.external_force_W).norm();
-  const double contact = Eigen::Map<const Vector3>(truth.contact_force_W).norm();
-  const Json values = {{truth.q[0], truth.q[1]}, {kDegPerRad * tiltAngle(x)}, {pushed, contact}};
-  return Json{{"t", t},           {"bodies", bodies}, {"joints", joints}, {"frames", frames},
+  const Json values = {{truth.state[kBallX], truth.state[kBallY]},
+                       {kDegPerRad * tiltAngle(truth.state)},
+                       {truth.external_force_W.norm(), truth.contact_force_W.norm()}};
+  return Json{{"t", t},           {"bodies", bodies}, {"joints", joints},   {"frames", frames},
               {"points", points}, {"forces", forces}, {"objects", objects}, {"values", values}}
       .dump();
 }

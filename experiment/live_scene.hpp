@@ -5,9 +5,9 @@
 
 #include <Eigen/Geometry>
 
-#include "ballbot_msgs/truth_frame.hpp"
 #include "experiment/ee_reference.hpp"
 #include "experiment/scenario.hpp"
+#include "model/truth.hpp"
 #include "plant/environment.hpp"
 #include "plant/surroundings.hpp"
 
@@ -23,7 +23,7 @@ class LiveScene {
   /// Title, robot, names of all that moves, and of the plots' lines.
   std::string description() const;
   /// Poses, joint angles, forces, and the plots' values at one time.
-  std::string frame(const ballbot_msgs::truth_frame& truth);
+  std::string frame(const TruthFrame& truth);
 
  private:
   Scenario scenario_;

@@ -75,22 +75,22 @@ void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutpu
   if (report.fallback) ++plans_on_fallback_;
   if (report.command_cut) ++plans_cut_;
   out.has_plan = true;
-  out.plan.sim_time_ns = toNs(now);
-  out.plan.acts_from_ns = toNs(now + plan_latency_);
+  out.plan.time = now;
+  out.plan.acts_from = now + plan_latency_;
   out.plan.accepted = report.accepted;
   out.plan.iterations = report.iterations;
   out.plan.cost = report.cost;
   out.plan.step_length = report.step_length;
   out.plan.constraint_violation = report.constraint_violation;
   out.plan.contact_state = report.contact.state;
-  Eigen::Map<Vector3>{out.plan.contact_asked_W} = report.contact.asked_W;
-  Eigen::Map<Vector3>{out.plan.contact_counted_on_W} = report.contact.counted_on_W;
+  out.plan.contact_asked_W = report.contact.asked_W;
+  out.plan.contact_counted_on_W = report.contact.counted_on_W;
   out.plan.status = static_cast<std::int8_t>(report.status);
   out.plan.fallback = report.fallback;
   out.plan.predicted_decrease = report.predicted_decrease;
   out.plan.regularisation = report.regularisation;
-  static_assert(std::extent<decltype(out.plan.cost_terms)>::value == kCostTermCount);
-  std::copy(report.terms.value.begin(), report.terms.value.end(), out.plan.cost_terms);
+  static_assert(std::tuple_size<decltype(out.plan.cost_terms)>::value == kCostTermCount);
+  std::copy(report.terms.value.begin(), report.terms.value.end(), out.plan.cost_terms.begin());
   if (plan_latency_ == SimDuration::zero() || !has_policy_) {
     // The first plan acts at once: it was made while the stand still held the robot.
     law_->activatePlan();

@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "estimator/estimator_factory.hpp"
 #include "experiment/believed_robot.hpp"
-#include "messages/convert.hpp"
 
 namespace ballbot {
 namespace {
@@ -49,10 +48,13 @@ void RobotSensing::update(const SensorFrame& frame) noexcept {
   }
 }
 
-void RobotSensing::write(SimTime now, ballbot_msgs::state_estimate& out) const noexcept {
+void RobotSensing::write(SimTime now, EstimateFrame& out) const noexcept {
   const StateEstimate e = estimator_->estimate(now);
-  toMessage(now, e.x, e.sigma, e.aligned, out);
-  Eigen::Map<Vector3>{out.contact_force_W} = contact_force_.force();
+  out.time = now;
+  out.state = e.x;
+  out.sigma = e.sigma;
+  out.contact_force_W = contact_force_.force();
+  out.aligned = e.aligned;
 }
 
 void RobotSensing::save(BlobWriter& out) const {

@@ -2,11 +2,11 @@
 
 #include <memory>
 
-#include "ballbot_msgs/state_estimate.hpp"
 #include "core/state_blob.hpp"
 #include "estimator/contact_force_observer.hpp"
 #include "estimator/estimator.hpp"
 #include "experiment/scenario.hpp"
+#include "model/reports.hpp"
 #include "model/robot_parameters.hpp"
 
 namespace ballbot {
@@ -28,7 +28,7 @@ class RobotSensing {
   /// Environment on the end-effector, in W [N]; zero while held.
   const Vector3& contactForce() const noexcept { return contact_force_.force(); }
   /// As it goes on record; the tick is the recorder's.
-  void write(SimTime now, ballbot_msgs::state_estimate& out) const noexcept;
+  void write(SimTime now, EstimateFrame& out) const noexcept;
 
   void save(BlobWriter& out) const;
   void restore(BlobReader& in);

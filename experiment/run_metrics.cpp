@@ -1,7 +1,6 @@
 #include "experiment/run_metrics.hpp"
 
 #include "experiment/believed_robot.hpp"
-#include "messages/convert.hpp"
 #include "plant/environment.hpp"
 #include "plant/surroundings.hpp"
 
@@ -41,10 +40,9 @@ void RunMetrics::add(const Tick& tick, const RobotController& controller) {
   push_.add(truth, motion_.place(truth.time));
   motion_.add(truth, tick.control.command);
   steps_.add(truth, reference_.at(truth.time));
-  contact_.add(truth, Eigen::Map<const Vector3>(tick.control.plan.contact_asked_W),
-               Eigen::Map<const Vector3>(tick.control.estimate.contact_force_W));
+  contact_.add(truth, tick.control.plan.contact_asked_W, tick.control.estimate.contact_force_W);
   if (!tick.control.has_estimate) return;
-  estimation_.add(truth, stateOf(tick.control.estimate));
+  estimation_.add(truth, tick.control.estimate.state);
   if (const auto own = controller.estimator().selfAssessment()) estimation_.addConsistency(*own);
 }
 

@@ -9,6 +9,8 @@
 namespace ballbot {
 namespace {
 
+std::array<double, 3> listed(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
 ReplayPose pose(const Vector3& p_W, const Eigen::Quaterniond& q) {
   return {{p_W.x(), p_W.y(), p_W.z()}, {q.w(), q.x(), q.y(), q.z()}};
 }
@@ -40,42 +42,44 @@ ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot,
   ReplayForce contact{"contact", ReportPhase::Kind::kContact, {}, {}};
   std::vector<ReplayForce> push_forces(pushes.size(), {"push", ReportPhase::Kind::kPush, {}, {}});
   // Joint names as the URDF has them, in the order of the actuators.
-  for (const char* name : {"wheel_1_joint", "wheel_2_joint", "wheel_3_joint", "arm_1_joint", "arm_2_joint", "arm_3_joint"}) {
+  for (const char* name : {"wheel_1_joint", "wheel_2_joint", "wheel_3_joint", "arm_1_joint",
+                           "arm_2_joint", "arm_3_joint"}) {
     replay.joints.push_back({name, {}});
   }
   Eigen::Quaterniond ball_orientation = Eigen::Quaterniond::Identity();
   bool touched = false;
   for (std::size_t k = 0; k < log.truth.size(); ++k) {
-    const auto& m = log.truth[k];
-    const double t = 1e-9 * static_cast<double>(m.sim_time_ns);
+    const TruthFrame& truth = log.truth[k];
+    const StateVector& x = truth.state;
+    const double t = toSeconds(truth.time);
     if (k > 0) {
       // The ball's orientation is no state of the plant: it follows from rolling without spin.
       const double dt = t - replay.t.back();
-      const Vector3 w = OmniwheelKinematics::rollingAngularVelocity(m.nu[0], m.nu[1], robot.ball.radius);
+      const Vector3 w = OmniwheelKinematics::rollingAngularVelocity(
+          x[kPositionDim + kBallVx], x[kPositionDim + kBallVy], robot.ball.radius);
       ball_orientation = (Eigen::Quaterniond(expSO3(w * dt)) * ball_orientation).normalized();
     }
-    const Vector3 p_WK(m.q[0], m.q[1], robot.ball.radius);
-    const Matrix3 R_WB = rotationFromYawPitchRoll(m.q[2], m.q[3], m.q[4]);
+    const Vector3 p_WK(x[kBallX], x[kBallY], robot.ball.radius);
+    const Matrix3 R_WB = rotationFromYawPitchRoll(x[kYaw], x[kPitch], x[kRoll]);
     replay.t.push_back(t);
     base.poses.push_back(pose(p_WK, Eigen::Quaterniond(R_WB)));
     ball.poses.push_back(pose(p_WK, ball_orientation));
-    for (std::size_t j = 0; j < replay.joints.size(); ++j) replay.joints[j].angle.push_back(m.joint_angle[j]);
-    hand.poses.push_back({{m.p_WE[0], m.p_WE[1], m.p_WE[2]},
-                          {m.quat_WE[0], m.quat_WE[1], m.quat_WE[2], m.quat_WE[3]}});
-    const SimTime time = simTimeFromNs(m.sim_time_ns);
-    asked.poses.push_back(askedPose(reference, time));
-    StateVector x;
-    x << Eigen::Map<const PositionVector>(m.q), Eigen::Map<const VelocityVector>(m.nu);
+    for (std::size_t j = 0; j < replay.joints.size(); ++j) {
+      replay.joints[j].angle.push_back(truth.joint_angle[static_cast<Eigen::Index>(j)]);
+    };
+    const Eigen::Vector4d& q = truth.quat_WE;
+    hand.poses.push_back({listed(truth.p_WE), {q[0], q[1], q[2], q[3]}});
+    asked.poses.push_back(askedPose(reference, truth.time));
     const auto bodies = bodyPoses(robot, x);
     for (std::size_t i = 0; i < pushes.size(); ++i) {
       const Vector3 p_WP = pushPoint(pushes[i], p_WK, bodies);
-      const Vector3 force = pushes[i].activeAt(time) ? pushes[i].force_W : Vector3::Zero();
-      push_forces[i].point_W.push_back({p_WP.x(), p_WP.y(), p_WP.z()});
-      push_forces[i].force_W.push_back({force.x(), force.y(), force.z()});
+      const Vector3 force = pushes[i].activeAt(truth.time) ? pushes[i].force_W : Vector3::Zero();
+      push_forces[i].point_W.push_back(listed(p_WP));
+      push_forces[i].force_W.push_back(listed(force));
     }
-    contact.point_W.push_back({m.contact_point_W[0], m.contact_point_W[1], m.contact_point_W[2]});
-    contact.force_W.push_back({m.contact_force_W[0], m.contact_force_W[1], m.contact_force_W[2]});
-    touched = touched || m.contact_phase != 0;
+    contact.point_W.push_back(listed(truth.contact_point_W));
+    contact.force_W.push_back(listed(truth.contact_force_W));
+    touched = touched || truth.contact_phase != ContactPhase::kNone;
   }
   replay.bodies = {std::move(base), std::move(ball)};
   replay.frames = {std::move(hand)};

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/angle.hpp"
+#include "core/key_unit.hpp"
 #include "cosim/log_reader.hpp"
 #include "experiment/believed_robot.hpp"
 #include "experiment/build_info.hpp"
@@ -33,7 +34,8 @@ constexpr const char* kArms[] = {"arm1", "arm2", "arm3"};
 /// Adds lines from the columns of recorded tables to one pair of axes.
 class AxesBuilder {
  public:
-  AxesBuilder(const std::vector<LogTable>& tables, std::string quantity, std::string unit, double scale = 1)
+  AxesBuilder(const std::vector<LogTable>& tables, std::string quantity, std::string unit,
+              double scale = 1)
       : tables_(tables), scale_(scale) {
     axes_.quantity = std::move(quantity);
     axes_.unit = std::move(unit);
@@ -59,6 +61,12 @@ class AxesBuilder {
   double scale_;
   PlotAxes axes_;
 };
+
+/// A column of the truth and the same of the estimate.
+void addBoth(AxesBuilder& axes, const std::string& column, const std::string& name, int channel) {
+  axes.line("truth", column, name + " true", SeriesStyle::kMeasured, channel)
+      .line("estimate", column, name + " estimated", SeriesStyle::kEstimated, channel);
+}
 
 /// Dashed, where the tasks ask for a place of the ball.
 void addBallReference(const LogTable& truth, const TaskSchedule& schedule, PlotGroup& group) {
@@ -88,17 +96,15 @@ PlotGroup ballGroup(const std::vector<LogTable>& tables, const std::optional<Mpc
   AxesBuilder velocity(tables, "velocity", "m/s");
   int channel = 0;
   for (const char* axis : {"x", "y"}) {
-    position.line("truth", std::string("p") + axis, std::string(axis) + " true", SeriesStyle::kMeasured, channel)
-        .line("estimate", std::string("p") + axis, std::string(axis) + " estimated", SeriesStyle::kEstimated, channel);
-    velocity.line("truth", std::string("v") + axis, std::string(axis) + " true", SeriesStyle::kMeasured, channel)
-        .line("estimate", std::string("v") + axis, std::string(axis) + " estimated", SeriesStyle::kEstimated, channel);
+    addBoth(position, std::string("ball_position_W_") + axis, axis, channel);
+    addBoth(velocity, std::string("ball_velocity_W_") + axis, axis, channel);
     ++channel;
   }
   group.axes = {position.axes(), velocity.axes()};
   if (const LogTable* truth = findTable(tables, "truth")) {
     PathAxes path{"Way of the ball from above", "x", "y", "m", {}};
-    path.series.push_back({"ball", SeriesStyle::kMeasured, 0, truth->column("time_s"), truth->column("px"),
-                           truth->column("py")});
+    path.series.push_back({"ball", SeriesStyle::kMeasured, 0, truth->column("time_s"),
+                           truth->column("ball_position_W_x"), truth->column("ball_position_W_y")});
     group.paths.push_back(std::move(path));
     if (mpc) addBallReference(*truth, *mpc->schedule, group);
   }
@@ -106,16 +112,18 @@ PlotGroup ballGroup(const std::vector<LogTable>& tables, const std::optional<Mpc
 }
 
 PlotGroup baseGroup(const std::vector<LogTable>& tables) {
-  PlotGroup group{"Base", "The base leans against a push and into an acceleration; at rest it leans so far that the whole is in balance, 1.2 degrees at the nominal arm pose.", {}, {}};
+  PlotGroup group{"Base",
+                  "The base leans against a push and into an acceleration; at rest it leans so far "
+                  "that the whole is in balance, 1.2 degrees at the nominal arm pose.",
+                  {},
+                  {}};
   AxesBuilder angles(tables, "angle", "deg", kDegPerRad);
   AxesBuilder rates(tables, "angular velocity", "rad/s");
   const char* const names[] = {"pitch", "roll", "yaw"};
-  const char* const rate_names[] = {"omega_y", "omega_x", "omega_z"};
+  const char* const axes[] = {"y", "x", "z"};
   for (int i = 0; i < 3; ++i) {
-    angles.line("truth", names[i], std::string(names[i]) + " true", SeriesStyle::kMeasured, i)
-        .line("estimate", names[i], std::string(names[i]) + " estimated", SeriesStyle::kEstimated, i);
-    rates.line("truth", rate_names[i], std::string(1, rate_names[i][6]) + " true", SeriesStyle::kMeasured, i)
-        .line("estimate", rate_names[i], std::string(1, rate_names[i][6]) + " estimated", SeriesStyle::kEstimated, i);
+    addBoth(angles, std::string("base_angles_") + names[i], names[i], i);
+    addBoth(rates, std::string("base_rate_B_") + axes[i], axes[i], i);
   }
   group.axes = {angles.axes(), rates.axes()};
   return group;
@@ -125,10 +133,15 @@ PlotGroup torqueGroup(const std::vector<LogTable>& tables, const RobotParameters
   PlotGroup group{"Torques", "Commanded, and what the springs apply.", {}, {}};
   AxesBuilder wheels(tables, "wheel torque", "N m"), arms(tables, "arm torque", "N m");
   for (int i = 0; i < 3; ++i) {
-    wheels.line("truth", std::string("joint_torque_") + kWheels[i], fmt::format("wheel {}", i + 1), SeriesStyle::kMeasured, i)
-        .line("command", std::string("torque_") + kWheels[i], fmt::format("wheel {} commanded", i + 1), SeriesStyle::kCommanded, i);
-    arms.line("truth", std::string("joint_torque_") + kArms[i], fmt::format("joint {}", i + 1), SeriesStyle::kMeasured, i)
-        .line("command", std::string("torque_") + kArms[i], fmt::format("joint {} commanded", i + 1), SeriesStyle::kCommanded, i);
+    wheels
+        .line("truth", std::string("joint_torque_") + kWheels[i], fmt::format("wheel {}", i + 1),
+              SeriesStyle::kMeasured, i)
+        .line("command", std::string("torque_") + kWheels[i],
+              fmt::format("wheel {} commanded", i + 1), SeriesStyle::kCommanded, i);
+    arms.line("truth", std::string("joint_torque_") + kArms[i], fmt::format("joint {}", i + 1),
+              SeriesStyle::kMeasured, i)
+        .line("command", std::string("torque_") + kArms[i],
+              fmt::format("joint {} commanded", i + 1), SeriesStyle::kCommanded, i);
   }
   wheels.limit("limit", robot.wheel_torque_limit);
   group.axes = {wheels.axes(), arms.axes()};
@@ -144,11 +157,7 @@ PlotGroup handGroup(const RunLog& log, const EeReference& reference) {
     PlotSeries measured{names[i], SeriesStyle::kMeasured, i % 3, {}, {}};
     PlotSeries asked{std::string(names[i]) + " reference", SeriesStyle::kReference, i % 3, {}, {}};
     const double scale = i < 3 ? 1 : kDegPerRad;
-    for (const auto& m : log.truth) {
-      TruthFrame truth;
-      truth.time = simTimeFromNs(m.sim_time_ns);
-      truth.p_WE << m.p_WE[0], m.p_WE[1], m.p_WE[2];
-      truth.quat_WE << m.quat_WE[0], m.quat_WE[1], m.quat_WE[2], m.quat_WE[3];
+    for (const TruthFrame& truth : log.truth) {
       measured.t.push_back(toSeconds(truth.time));
       const PoseVector wanted = reference.at(truth.time);
       measured.values.push_back(scale * eePose(truth, wanted)[i]);
@@ -167,7 +176,8 @@ PlotGroup armGroup(const std::vector<LogTable>& tables) {
   PlotGroup group{"Arm", "", {}, {}};
   AxesBuilder joints(tables, "joint angle", "rad");
   for (int i = 0; i < 3; ++i) {
-    joints.line("truth", kArms[i], fmt::format("joint {}", i + 1), SeriesStyle::kMeasured, i);
+    joints.line("truth", std::string("arm_angle_") + kArms[i], fmt::format("joint {}", i + 1),
+                SeriesStyle::kMeasured, i);
   }
   group.axes = {joints.axes()};
   return group;
@@ -192,20 +202,24 @@ std::optional<PlotGroup> planGroup(const std::vector<LogTable>& tables) {
     cost.line("plan", costColumn(shares[i].second), costTermName(shares[i].second),
               SeriesStyle::kMeasured, static_cast<int>(i) + 1);
   }
-  return PlotGroup{"Plans", "What the planned motion costs, and its largest parts.", {cost.axes()}, {}};
+  return PlotGroup{
+      "Plans", "What the planned motion costs, and its largest parts.", {cost.axes()}, {}};
 }
 
 std::vector<ReportPhase> phasesOf(const Scenario& scenario, const std::vector<Push>& pushes) {
   std::vector<ReportPhase> phases;
   if (scenario.release > kSimStart) {
-    phases.push_back({ReportPhase::Kind::kHold, 0, toSeconds(scenario.release), "held in the stand"});
+    phases.push_back(
+        {ReportPhase::Kind::kHold, 0, toSeconds(scenario.release), "held in the stand"});
   }
   for (const Push& push : pushes) {
-    phases.push_back({ReportPhase::Kind::kPush, toSeconds(push.start), toSeconds(push.start + push.duration),
+    phases.push_back({ReportPhase::Kind::kPush, toSeconds(push.start),
+                      toSeconds(push.start + push.duration),
                       fmt::format("push {:.0f} N", push.force_W.norm())});
   }
   for (const Fault& fault : scheduledFaults(scenario.tree)) {
-    phases.push_back({ReportPhase::Kind::kFault, toSeconds(fault.start), toSeconds(fault.end()), toText(fault)});
+    phases.push_back(
+        {ReportPhase::Kind::kFault, toSeconds(fault.start), toSeconds(fault.end()), toText(fault)});
   }
   return phases;
 }
@@ -221,10 +235,10 @@ std::string verdictText(const RunResult& result) {
 void addVerdicts(const RunResult& result, ReportData& data) {
   for (const VerdictRow& row : result.verdicts) {
     data.requirements.push_back({row.metric, row.measured ? row.value : std::nan(""), row.limit,
-                                 unitOfMetric(row.metric), row.passed});
+                                 unitOfKey(row.metric), row.passed});
   }
   for (const auto& [name, value] : result.metrics) {
-    if (name.rfind("rejected_", 0) != 0) data.metrics.push_back({"", name, value, unitOfMetric(name)});
+    if (name.rfind("rejected_", 0) != 0) data.metrics.push_back({"", name, value, unitOfKey(name)});
   }
   for (const auto& [reason, count] : rejectionsAmong(result.metrics)) {
     data.metrics.push_back({"Rejected by the estimator", reason, count, ""});
@@ -248,12 +262,13 @@ void writeRunReport(const Scenario& scenario, const RunResult& result, const Run
   data.subtitle = scenario.summary;
   data.passed = result.passed;
   data.verdict = verdictText(result);
-  data.headline = {{"duration", fmt::format("{:g} s", toSeconds(result.end))},
-                   {"seed", std::to_string(scenario.seed)},
-                   {"digest", result.trajectory_digest.substr(0, 12)},
-                   {"largest tilt", fmt::format("{:.1f} deg", result.metrics.count("largest_tilt_deg")
-                                                                  ? result.metrics.at("largest_tilt_deg")
-                                                                  : std::nan(""))}};
+  data.headline = {
+      {"duration", fmt::format("{:g} s", toSeconds(result.end))},
+      {"seed", std::to_string(scenario.seed)},
+      {"digest", result.trajectory_digest.substr(0, 12)},
+      {"largest tilt", fmt::format("{:.1f} deg", result.metrics.count("largest_tilt_deg")
+                                                     ? result.metrics.at("largest_tilt_deg")
+                                                     : std::nan(""))}};
   addVerdicts(result, data);
   data.groups = {ballGroup(tables, readMpc(scenario)), baseGroup(tables), handGroup(log, reference),
                  torqueGroup(tables, robot), armGroup(tables)};
@@ -268,8 +283,10 @@ void writeRunReport(const Scenario& scenario, const RunResult& result, const Run
     data.replay = makeReplay(log_W, robot, pushes, reference);
     data.replay->objects = replayObjects(log_W, surroundings);
   }
-  data.manifest = {{"scenario", scenario.name}, {"seed", std::to_string(scenario.seed)},
-                   {"config digest", scenario.configDigest()}, {"trajectory digest", result.trajectory_digest}};
+  data.manifest = {{"scenario", scenario.name},
+                   {"seed", std::to_string(scenario.seed)},
+                   {"config digest", scenario.configDigest()},
+                   {"trajectory digest", result.trajectory_digest}};
   for (const auto& [key, value] : buildInfo()) data.manifest.push_back({key, value});
   data.documents = {{"scenario.yaml", readTextFile(folder.scenarioFile())},
                     {"summary.json", readTextFile(folder.summaryFile())}};

@@ -2,7 +2,6 @@
 
 #include "core/angle.hpp"
 #include "core/config_reader.hpp"
-#include "messages/convert.hpp"
 
 namespace ballbot {
 
@@ -15,11 +14,7 @@ HomeFrame homeFrame(const Scenario& scenario) {
 }
 
 void seeFromHome(const HomeFrame& home, RunLog& log) {
-  for (ballbot_msgs::truth_frame& message : log.truth) {
-    TruthFrame truth;
-    fromMessage(message, truth);
-    toMessage(home.see(truth), message.tick, message);
-  }
+  for (TruthFrame& truth : log.truth) truth = home.see(truth);
 }
 
 }  // namespace ballbot

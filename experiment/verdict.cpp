@@ -38,16 +38,4 @@ std::vector<VerdictRow> judge(const std::vector<MetricLimit>& requirements,
   return rows;
 }
 
-std::string unitOfMetric(const std::string& name) {
-  static const std::pair<const char*, const char*> kUnits[] = {
-      {"_m_per_s", "m/s"}, {"_rad_per_s", "rad/s"}, {"_Nm", "N m"}, {"_deg", "deg"}, {"_percent", "%"},
-      {"_Hz", "Hz"},       {"_ms", "ms"},           {"_us", "us"},  {"_rad", "rad"}, {"_kg", "kg"},
-      {"_m", "m"},         {"_s", "s"},             {"_N", "N"},    {"_J", "J"}};
-  for (const auto& [suffix, unit] : kUnits) {
-    const std::string s(suffix);
-    if (name.size() > s.size() && name.compare(name.size() - s.size(), s.size(), s) == 0) return unit;
-  }
-  return "";
-}
-
 }  // namespace ballbot

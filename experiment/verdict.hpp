@@ -22,7 +22,4 @@ std::vector<VerdictRow> judge(const std::vector<MetricLimit>& requirements,
                               const std::map<std::string, double>& metrics,
                               const std::vector<std::string>& known_metrics);
 
-/// Unit of a metric from its name's ending: "_deg" gives "deg"; empty for counts and flags.
-std::string unitOfMetric(const std::string& name);
-
 }  // namespace ballbot

@@ -18,9 +18,9 @@ void addPorts(std::vector<CouplingPort>& ports, const std::string& prefix,
   for (const auto& s : signals) {
     CouplingPort port;
     port.name = prefix + s.name;
-    const std::string unit = unitName(s.unit, s.kind != SignalKind::kCount);
+    const std::string unit = unitName(s.unit, !isWhole(s.kind));
     if (!unit.empty()) port.unit = fmuUnit(unit);
-    if (s.kind == SignalKind::kCount) port.kind = ValueKind::kInteger;
+    if (isWhole(s.kind)) port.kind = ValueKind::kInteger;
     port.size = static_cast<std::size_t>(s.size);
     CouplingNode::add(ports, std::move(port));
   }

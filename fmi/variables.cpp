@@ -12,7 +12,7 @@ template <typename Frame>
 FmuVariable variableOf(const std::string& prefix, const Signal<Frame>& signal, VariableRole role) {
   FmuVariable v;
   v.name = prefix + signal.name;
-  v.type = signal.kind == SignalKind::kCount ? VariableType::kInteger : VariableType::kReal;
+  v.type = isWhole(signal.kind) ? VariableType::kInteger : VariableType::kReal;
   v.role = role;
   v.continuous = signal.kind == SignalKind::kReal;
   v.unit = unitName(signal.unit, v.type == VariableType::kReal);

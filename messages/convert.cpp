@@ -1,129 +1,115 @@
 #include "messages/convert.hpp"
 
+#include <algorithm>
 #include <cstddef>
+
+#include "messages/frame_fields.hpp"
+#include "model/signal_table.hpp"
 
 namespace ballbot {
 namespace {
 
-template <typename Vector, std::size_t N>
-void copyTo(const Vector& from, double (&to)[N]) {
-  static_assert(Vector::SizeAtCompileTime == static_cast<int>(N), "sizes must agree");
-  Eigen::Map<Vector>{to} = from;
+/// Fills the fields of a message from the signals of a frame, one after the other.
+template <typename Frame>
+class Filler {
+ public:
+  explicit Filler(const Frame& frame) : frame_(frame), next_(signalsOf(frame).data()) {}
+
+  template <std::size_t N>
+  void operator()(double (&field)[N]) {
+    for (std::size_t i = 0; i < N; ++next_) {
+      const auto size = static_cast<std::size_t>(next_->size);
+      std::copy_n(next_->reals(frame_), size, field + i);
+      i += size;
+    }
+  }
+  void operator()(double& field) { field = *next_++->reals(frame_); }
+  template <typename Integer>
+  void operator()(Integer& field) {
+    field = static_cast<Integer>(next_++->whole(frame_));
+  }
+
+ private:
+  const Frame& frame_;
+  const Signal<Frame>* next_;
+};
+
+/// The other way.
+template <typename Frame>
+class Drainer {
+ public:
+  explicit Drainer(Frame& frame) : frame_(frame), next_(signalsOf(frame).data()) {}
+
+  template <std::size_t N>
+  void operator()(const double (&field)[N]) {
+    for (std::size_t i = 0; i < N; ++next_) {
+      const auto size = static_cast<std::size_t>(next_->size);
+      std::copy_n(field + i, size, next_->reals_of(frame_));
+      i += size;
+    }
+  }
+  void operator()(const double& field) { *next_++->reals_of(frame_) = field; }
+  template <typename Integer>
+  void operator()(const Integer& field) {
+    next_++->set_whole(frame_, field);
+  }
+
+ private:
+  Frame& frame_;
+  const Signal<Frame>* next_;
+};
+
+template <typename Frame, typename Message>
+void fill(const Frame& frame, std::int64_t tick, SimTime time, Message& out) {
+  out.checksum = 0;
+  out.tick = tick;
+  out.sim_time_ns = toNs(time);
+  visitFields(out, Filler<Frame>(frame));
 }
 
-template <typename Vector, std::size_t N>
-void copyFrom(const double (&from)[N], Vector& to) {
-  static_assert(Vector::SizeAtCompileTime == static_cast<int>(N), "sizes must agree");
-  to = Eigen::Map<const Vector>{from};
+template <typename Frame, typename Message>
+void drain(const Message& message, Frame& out) {
+  // Fields are visited as ones that may be written; a Drainer takes each as const.
+  visitFields(const_cast<Message&>(message), Drainer<Frame>(out));
 }
 
 }  // namespace
 
 void toMessage(const SensorFrame& frame, std::int64_t tick, ballbot_msgs::sensor_frame& out) {
-  out.checksum = 0;
-  out.tick = tick;
-  out.sim_time_ns = toNs(frame.time);
-  copyTo(frame.motor_angle, out.motor_angle);
-  copyTo(frame.joint_angle, out.joint_angle);
-  copyTo(frame.joint_velocity, out.joint_velocity);
-  copyTo(frame.joint_torque, out.joint_torque);
-  out.imu_count = frame.imu_count;
-  out.imu_time_ns = toNs(frame.imu_time);
-  copyTo(frame.accel_B, out.accel_B);
-  copyTo(frame.gyro_WB_B, out.gyro_WB_B);
-  out.pose_count = frame.pose_count;
-  out.pose_time_ns = toNs(frame.pose_time);
-  copyTo(frame.pose_W, out.pose_W);
+  fill(frame, tick, frame.time, out);
+}
+void toMessage(const TruthFrame& frame, std::int64_t tick, ballbot_msgs::truth_frame& out) {
+  fill(frame, tick, frame.time, out);
+}
+void toMessage(const EstimateFrame& frame, std::int64_t tick, ballbot_msgs::state_estimate& out) {
+  fill(frame, tick, frame.time, out);
+}
+void toMessage(const PlanFrame& frame, std::int64_t tick, ballbot_msgs::plan_report& out) {
+  fill(frame, tick, frame.time, out);
+}
+void toMessage(const ActuatorCommand& command, std::int64_t tick, SimTime time,
+               ballbot_msgs::actuator_command& out) {
+  fill(command, tick, time, out);
 }
 
 void fromMessage(const ballbot_msgs::sensor_frame& message, SensorFrame& out) {
   out.time = simTimeFromNs(message.sim_time_ns);
-  copyFrom(message.motor_angle, out.motor_angle);
-  copyFrom(message.joint_angle, out.joint_angle);
-  copyFrom(message.joint_velocity, out.joint_velocity);
-  copyFrom(message.joint_torque, out.joint_torque);
-  out.imu_count = message.imu_count;
-  out.imu_time = simTimeFromNs(message.imu_time_ns);
-  copyFrom(message.accel_B, out.accel_B);
-  copyFrom(message.gyro_WB_B, out.gyro_WB_B);
-  out.pose_count = message.pose_count;
-  out.pose_time = simTimeFromNs(message.pose_time_ns);
-  copyFrom(message.pose_W, out.pose_W);
+  drain(message, out);
 }
-
-void toMessage(const ActuatorCommand& command, std::int64_t tick, SimTime time,
-               ballbot_msgs::actuator_command& out) {
-  out.checksum = 0;
-  out.tick = tick;
-  out.sim_time_ns = toNs(time);
-  copyTo(command.torque, out.torque);
-  copyTo(command.position, out.position);
-  copyTo(command.velocity, out.velocity);
-  copyTo(command.stiffness, out.stiffness);
-  copyTo(command.damping, out.damping);
-}
-
-void fromMessage(const ballbot_msgs::actuator_command& message, ActuatorCommand& out) {
-  copyFrom(message.torque, out.torque);
-  copyFrom(message.position, out.position);
-  copyFrom(message.velocity, out.velocity);
-  copyFrom(message.stiffness, out.stiffness);
-  copyFrom(message.damping, out.damping);
-}
-
-void toMessage(const TruthFrame& truth, std::int64_t tick, ballbot_msgs::truth_frame& out) {
-  out.checksum = 0;
-  out.tick = tick;
-  out.sim_time_ns = toNs(truth.time);
-  copyTo(PositionVector{truth.state.head<kPositionDim>()}, out.q);
-  copyTo(VelocityVector{truth.state.tail<kVelocityDim>()}, out.nu);
-  copyTo(truth.joint_angle, out.joint_angle);
-  copyTo(truth.joint_velocity, out.joint_velocity);
-  copyTo(truth.motor_angle, out.motor_angle);
-  copyTo(truth.joint_torque, out.joint_torque);
-  copyTo(truth.p_WE, out.p_WE);
-  copyTo(truth.quat_WE, out.quat_WE);
-  copyTo(truth.external_force_W, out.external_force_W);
-  copyTo(truth.contact_force_W, out.contact_force_W);
-  copyTo(truth.contact_point_W, out.contact_point_W);
-  out.contact_phase = static_cast<std::int8_t>(truth.contact_phase);
-  out.door_angle = truth.door_angle;
-  out.door_rate = truth.door_rate;
-}
-
 void fromMessage(const ballbot_msgs::truth_frame& message, TruthFrame& out) {
   out.time = simTimeFromNs(message.sim_time_ns);
-  out.state.head<kPositionDim>() = Eigen::Map<const PositionVector>{message.q};
-  out.state.tail<kVelocityDim>() = Eigen::Map<const VelocityVector>{message.nu};
-  copyFrom(message.joint_angle, out.joint_angle);
-  copyFrom(message.joint_velocity, out.joint_velocity);
-  copyFrom(message.motor_angle, out.motor_angle);
-  copyFrom(message.joint_torque, out.joint_torque);
-  copyFrom(message.p_WE, out.p_WE);
-  copyFrom(message.quat_WE, out.quat_WE);
-  copyFrom(message.external_force_W, out.external_force_W);
-  copyFrom(message.contact_force_W, out.contact_force_W);
-  copyFrom(message.contact_point_W, out.contact_point_W);
-  out.contact_phase = static_cast<ContactPhase>(message.contact_phase);
-  out.door_angle = message.door_angle;
-  out.door_rate = message.door_rate;
+  drain(message, out);
 }
-
-void toMessage(SimTime time, const StateVector& x, const Eigen::Matrix<double, 10, 1>& sigma,
-               bool aligned, ballbot_msgs::state_estimate& out) {
-  out.checksum = 0;
-  out.tick = 0;
-  out.sim_time_ns = toNs(time);
-  copyTo(PositionVector{x.head<kPositionDim>()}, out.q);
-  copyTo(VelocityVector{x.tail<kVelocityDim>()}, out.nu);
-  copyTo(sigma, out.sigma);
-  out.aligned = aligned ? 1 : 0;
+void fromMessage(const ballbot_msgs::state_estimate& message, EstimateFrame& out) {
+  out.time = simTimeFromNs(message.sim_time_ns);
+  drain(message, out);
 }
-
-StateVector stateOf(const ballbot_msgs::state_estimate& message) {
-  StateVector x;
-  x << Eigen::Map<const PositionVector>{message.q}, Eigen::Map<const VelocityVector>{message.nu};
-  return x;
+void fromMessage(const ballbot_msgs::plan_report& message, PlanFrame& out) {
+  out.time = simTimeFromNs(message.sim_time_ns);
+  drain(message, out);
+}
+void fromMessage(const ballbot_msgs::actuator_command& message, ActuatorCommand& out) {
+  drain(message, out);
 }
 
 }  // namespace ballbot

@@ -1,67 +1,69 @@
 #include "model/signal_table.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace ballbot {
 namespace {
 
-// A contiguous run of doubles inside a vector member.
-#define BALLBOT_REALS(frame, field, name, size, first, unit, text, member)                       \
-  Signal<frame> {                                                                                \
-    field, name, size, SignalKind::kReal, unit, text,                                            \
-        [](const frame& f, double* to) { std::copy_n((member).data() + (first), size, to); },    \
-        [](frame& f, const double* from) { std::copy_n(from, size, (member).data() + (first)); } \
+constexpr const char* kJoints = "wheel1 wheel2 wheel3 arm1 arm2 arm3";
+constexpr const char* kArm = "arm1 arm2 arm3";
+constexpr const char* kAxes = "x y z";
+constexpr const char* kPlane = "x y";
+constexpr const char* kOne = "";
+
+// A contiguous run of doubles from `member` on. Frames hold no padding between such, and a frame
+// that is only read is never written through what reals() gives.
+#define BALLBOT_REALS(frame, field, name, size, unit, elements, text, member) \
+  Signal<frame> {                                                             \
+    field, name, size, SignalKind::kReal, unit, elements, text,               \
+        largestOf(SignalKind::kReal, unit),                                   \
+        [](const frame& f) -> const double* { return &(member); },            \
+        [](frame& f) -> double* { return &(member); }, nullptr, nullptr       \
   }
-#define BALLBOT_NUMBER(frame, field, name, unit, text, member) \
-  Signal<frame> {                                              \
-    field, name, 1, SignalKind::kReal, unit, text,             \
-        [](const frame& f, double* to) { *to = member; },      \
-        [](frame& f, const double* from) { member = *from; }   \
+#define BALLBOT_WHOLE(frame, kind, field, name, unit, largest, text, get, set) \
+  Signal<frame> {                                                              \
+    field, name, 1, kind, unit, kOne, text, largest, nullptr, nullptr,         \
+        [](const frame& f) -> std::int64_t { return get; },                    \
+        [](frame& f, std::int64_t value) { set; }                              \
   }
-#define BALLBOT_COUNT(frame, field, name, text, member)                             \
-  Signal<frame> {                                                                   \
-    field, name, 1, SignalKind::kCount, "", text,                                   \
-        [](const frame& f, double* to) { *to = static_cast<double>(member); },      \
-        [](frame& f, const double* from) {                                          \
-          member = static_cast<decltype(member)>(static_cast<std::int64_t>(*from)); \
-        }                                                                           \
-  }
-#define BALLBOT_TIME(frame, field, name, text, member)                                          \
-  Signal<frame> {                                                                               \
-    field, name, 1, SignalKind::kTime, "s", text,                                               \
-        [](const frame& f, double* to) { *to = static_cast<double>(toNs(member)) / 1e9; },      \
-        [](frame& f, const double* from) { member = simTimeFromNs(std::llround(1e9 * *from)); } \
-  }
+#define BALLBOT_INTEGER(frame, kind, name, largest, text, member)                                \
+  BALLBOT_WHOLE(frame, kind, name, name, "", largest, text, static_cast<std::int64_t>(f.member), \
+                f.member = static_cast<decltype(f.member)>(value))
+#define BALLBOT_COUNT(frame, name, text, member) \
+  BALLBOT_INTEGER(frame, SignalKind::kCount, name, largestOf(SignalKind::kCount, ""), text, member)
+#define BALLBOT_FLAG(frame, name, text, member)                                                    \
+  BALLBOT_WHOLE(frame, SignalKind::kFlag, name, name, "", 1, text, std::int64_t{f.member ? 1 : 0}, \
+                f.member = value != 0)
+#define BALLBOT_TIME(frame, field, name, text, member)                               \
+  BALLBOT_WHOLE(frame, SignalKind::kTime, field, name, "s", 0, text, toNs(f.member), \
+                f.member = simTimeFromNs(value))
 
 }  // namespace
 
 const std::vector<Signal<ActuatorCommand>>& commandSignals() {
-  static_assert(kJointCount == 6, "the descriptions below name six joints");
+  static_assert(kJointCount == 6, "the elements name six joints");
   static const std::vector<Signal<ActuatorCommand>> signals = {
-      BALLBOT_REALS(ActuatorCommand, "torque", "torque", 6, 0, "N m",
+      BALLBOT_REALS(ActuatorCommand, "torque", "torque", 6, "N m", kJoints,
                     "feedforward torque at each joint: wheels 1 to 3, then arm joints 1 to 3",
-                    f.torque),
-      BALLBOT_REALS(ActuatorCommand, "position", "position", 6, 0, "rad",
-                    "set-point of each joint's angle", f.position),
-      BALLBOT_REALS(ActuatorCommand, "velocity", "velocity", 6, 0, "rad/s",
-                    "set-point of each joint's rate", f.velocity),
-      BALLBOT_REALS(ActuatorCommand, "stiffness", "stiffness", 6, 0, "N m/rad",
-                    "gain on (position - joint angle) inside each drive", f.stiffness),
-      BALLBOT_REALS(ActuatorCommand, "damping", "damping", 6, 0, "N m s/rad",
-                    "gain on (velocity - joint rate) inside each drive", f.damping),
+                    f.torque[0]),
+      BALLBOT_REALS(ActuatorCommand, "position", "position", 6, "rad", kJoints,
+                    "set-point of each joint's angle", f.position[0]),
+      BALLBOT_REALS(ActuatorCommand, "velocity", "velocity", 6, "rad/s", kJoints,
+                    "set-point of each joint's rate", f.velocity[0]),
+      BALLBOT_REALS(ActuatorCommand, "stiffness", "stiffness", 6, "N m/rad", kJoints,
+                    "gain on (position - joint angle) inside each drive", f.stiffness[0]),
+      BALLBOT_REALS(ActuatorCommand, "damping", "damping", 6, "N m s/rad", kJoints,
+                    "gain on (velocity - joint rate) inside each drive", f.damping[0]),
   };
   return signals;
 }
 
 const std::vector<Signal<ExternalForces>>& externalForceSignals() {
   static const std::vector<Signal<ExternalForces>> signals = {
-      BALLBOT_REALS(ExternalForces, "", "base_W", 3, 0, "N", "force on the base, in the world",
-                    f.base_force_W),
-      BALLBOT_REALS(ExternalForces, "", "base_point_B", 3, 0, "m",
-                    "where it acts, from the ball centre, in the base frame", f.base_point_B),
-      BALLBOT_REALS(ExternalForces, "", "end_effector_W", 3, 0, "N",
-                    "force on the end-effector, in the world", f.end_effector_force_W),
+      BALLBOT_REALS(ExternalForces, "", "base_W", 3, "N", kAxes, "force on the base, in the world",
+                    f.base_force_W[0]),
+      BALLBOT_REALS(ExternalForces, "", "base_point_B", 3, "m", kAxes,
+                    "where it acts, from the ball centre, in the base frame", f.base_point_B[0]),
+      BALLBOT_REALS(ExternalForces, "", "end_effector_W", 3, "N", kAxes,
+                    "force on the end-effector, in the world", f.end_effector_force_W[0]),
   };
   return signals;
 }
@@ -69,83 +71,158 @@ const std::vector<Signal<ExternalForces>>& externalForceSignals() {
 const std::vector<Signal<SensorFrame>>& sensorSignals() {
   static const std::vector<Signal<SensorFrame>> signals = {
       BALLBOT_REALS(
-          SensorFrame, "motor_angle", "motor_angle", 6, 0, "rad",
+          SensorFrame, "motor_angle", "motor_angle", 6, "rad", kJoints,
           "encoders behind the gear, before the spring: wheels 1 to 3, then arm joints 1 to 3",
-          f.motor_angle),
-      BALLBOT_REALS(SensorFrame, "joint_angle", "joint_angle", 6, 0, "rad",
-                    "encoders behind the spring; wheels relative to the base", f.joint_angle),
-      BALLBOT_REALS(SensorFrame, "joint_velocity", "joint_velocity", 6, 0, "rad/s",
-                    "rate of joint_angle as the drive computes it", f.joint_velocity),
-      BALLBOT_REALS(SensorFrame, "joint_torque", "joint_torque", 6, 0, "N m",
-                    "spring torque on the joint, from the deflection", f.joint_torque),
-      BALLBOT_COUNT(SensorFrame, "imu_count", "imu_count",
-                    "IMU samples so far; has grown when accel_B and gyro_WB_B are new",
-                    f.imu_count),
+          f.motor_angle[0]),
+      BALLBOT_REALS(SensorFrame, "joint_angle", "joint_angle", 6, "rad", kJoints,
+                    "encoders behind the spring; wheels relative to the base", f.joint_angle[0]),
+      BALLBOT_REALS(SensorFrame, "joint_velocity", "joint_velocity", 6, "rad/s", kJoints,
+                    "rate of joint_angle as the drive computes it", f.joint_velocity[0]),
+      BALLBOT_REALS(SensorFrame, "joint_torque", "joint_torque", 6, "N m", kJoints,
+                    "spring torque on the joint, from the deflection", f.joint_torque[0]),
+      BALLBOT_COUNT(SensorFrame, "imu_count",
+                    "IMU samples so far; has grown when accel_B and gyro_WB_B are new", imu_count),
       BALLBOT_TIME(SensorFrame, "imu_time_ns", "imu_time",
-                   "end of the interval the IMU sample is averaged over", f.imu_time),
-      BALLBOT_REALS(SensorFrame, "accel_B", "accel_B", 3, 0, "m/s^2",
-                    "specific force at the IMU, in the base frame", f.accel_B),
-      BALLBOT_REALS(SensorFrame, "gyro_WB_B", "gyro_WB_B", 3, 0, "rad/s",
-                    "angular velocity of the base in the world, in the base frame", f.gyro_WB_B),
-      BALLBOT_COUNT(SensorFrame, "pose_count", "pose_count",
-                    "external pose samples so far; 0 without such a measurement", f.pose_count),
+                   "end of the interval the IMU sample is averaged over", imu_time),
+      BALLBOT_REALS(SensorFrame, "accel_B", "accel_B", 3, "m/s^2", kAxes,
+                    "specific force at the IMU, in the base frame", f.accel_B[0]),
+      BALLBOT_REALS(SensorFrame, "gyro_WB_B", "gyro_WB_B", 3, "rad/s", kAxes,
+                    "angular velocity of the base in the world, in the base frame", f.gyro_WB_B[0]),
+      BALLBOT_COUNT(SensorFrame, "pose_count",
+                    "external pose samples so far; 0 without such a measurement", pose_count),
       BALLBOT_TIME(SensorFrame, "pose_time_ns", "pose_time", "when the external pose was taken",
-                   f.pose_time),
-      BALLBOT_REALS(SensorFrame, "pose_W", "pose_position_W", 2, 0, "m",
-                    "externally measured ball centre x, y in the world", f.pose_W),
-      BALLBOT_REALS(SensorFrame, "pose_W", "pose_yaw_W", 1, 2, "rad",
-                    "externally measured yaw, any whole turn", f.pose_W),
+                   pose_time),
+      BALLBOT_REALS(SensorFrame, "pose_W", "pose_position_W", 2, "m", kPlane,
+                    "externally measured ball centre x, y in the world", f.pose_W[0]),
+      BALLBOT_REALS(SensorFrame, "pose_W", "pose_yaw_W", 1, "rad", kOne,
+                    "externally measured yaw, any whole turn", f.pose_W[2]),
   };
   return signals;
 }
 
 const std::vector<Signal<TruthFrame>>& truthSignals() {
   static const std::vector<Signal<TruthFrame>> signals = {
-      BALLBOT_REALS(TruthFrame, "q", "ball_position_W", 2, kBallX, "m",
-                    "true position x, y of the ball centre in the world", f.state),
-      BALLBOT_REALS(TruthFrame, "q", "base_angles", 3, kYaw, "rad",
-                    "true yaw (continuous), pitch, roll of the base", f.state),
-      BALLBOT_REALS(TruthFrame, "q", "arm_angle", 3, kArm1, "rad", "true angles of the arm joints",
-                    f.state),
-      BALLBOT_REALS(TruthFrame, "nu", "ball_velocity_W", 2, kPositionDim + kBallVx, "m/s",
-                    "true velocity x, y of the ball centre in the world", f.state),
-      BALLBOT_REALS(TruthFrame, "nu", "base_rate_B", 3, kPositionDim + kOmegaX, "rad/s",
-                    "true angular velocity of the base in the world, in the base frame", f.state),
-      BALLBOT_REALS(TruthFrame, "nu", "arm_rate", 3, kPositionDim + kArmRate1, "rad/s",
-                    "true rates of the arm joints", f.state),
-      BALLBOT_REALS(TruthFrame, "joint_angle", "joint_angle", 6, 0, "rad",
+      BALLBOT_REALS(TruthFrame, "q", "ball_position_W", 2, "m", kPlane,
+                    "true position x, y of the ball centre in the world", f.state[kBallX]),
+      BALLBOT_REALS(TruthFrame, "q", "base_angles", 3, "rad", "yaw pitch roll",
+                    "true yaw (continuous), pitch, roll of the base", f.state[kYaw]),
+      BALLBOT_REALS(TruthFrame, "q", "arm_angle", 3, "rad", kArm, "true angles of the arm joints",
+                    f.state[kArm1]),
+      BALLBOT_REALS(TruthFrame, "nu", "ball_velocity_W", 2, "m/s", kPlane,
+                    "true velocity x, y of the ball centre in the world",
+                    f.state[kPositionDim + kBallVx]),
+      BALLBOT_REALS(TruthFrame, "nu", "base_rate_B", 3, "rad/s", kAxes,
+                    "true angular velocity of the base in the world, in the base frame",
+                    f.state[kPositionDim + kOmegaX]),
+      BALLBOT_REALS(TruthFrame, "nu", "arm_rate", 3, "rad/s", kArm, "true rates of the arm joints",
+                    f.state[kPositionDim + kArmRate1]),
+      BALLBOT_REALS(TruthFrame, "joint_angle", "joint_angle", 6, "rad", kJoints,
                     "true joint angles: wheels 1 to 3, integrated, relative to the base, then arm",
-                    f.joint_angle),
-      BALLBOT_REALS(TruthFrame, "joint_velocity", "joint_velocity", 6, 0, "rad/s",
-                    "true joint rates", f.joint_velocity),
-      BALLBOT_REALS(TruthFrame, "motor_angle", "motor_angle", 6, 0, "rad",
-                    "true rotor angles behind the gear, before the spring", f.motor_angle),
-      BALLBOT_REALS(TruthFrame, "joint_torque", "joint_torque", 6, 0, "N m",
-                    "torque that the spring, or the ideal actuator, applies", f.joint_torque),
-      BALLBOT_REALS(TruthFrame, "p_WE", "p_WE", 3, 0, "m",
-                    "true end-effector position in the world", f.p_WE),
-      BALLBOT_REALS(TruthFrame, "quat_WE", "quat_WE", 4, 0, "",
-                    "true end-effector orientation in the world: w, x, y, z", f.quat_WE),
-      BALLBOT_REALS(TruthFrame, "external_force_W", "external_force_W", 3, 0, "N",
-                    "sum of pushes, in the world", f.external_force_W),
-      BALLBOT_REALS(TruthFrame, "contact_force_W", "contact_force_W", 3, 0, "N",
-                    "surroundings on the end-effector, in the world", f.contact_force_W),
-      BALLBOT_REALS(TruthFrame, "contact_point_W", "contact_point_W", 3, 0, "m",
-                    "where that force acts, in the world; without contact p_WE", f.contact_point_W),
-      BALLBOT_COUNT(TruthFrame, "contact_phase", "contact_phase",
-                    "what the end-effector does: 0 touches nothing, 1 sticks, 2 slides",
-                    f.contact_phase),
-      BALLBOT_NUMBER(TruthFrame, "door_angle", "door_angle", "rad",
-                     "true angle of the door from closed; 0 without a door", f.door_angle),
-      BALLBOT_NUMBER(TruthFrame, "door_rate", "door_rate", "rad/s",
-                     "true rate of the door's angle; 0 without a door", f.door_rate),
+                    f.joint_angle[0]),
+      BALLBOT_REALS(TruthFrame, "joint_velocity", "joint_velocity", 6, "rad/s", kJoints,
+                    "true joint rates", f.joint_velocity[0]),
+      BALLBOT_REALS(TruthFrame, "motor_angle", "motor_angle", 6, "rad", kJoints,
+                    "true rotor angles behind the gear, before the spring", f.motor_angle[0]),
+      BALLBOT_REALS(TruthFrame, "joint_torque", "joint_torque", 6, "N m", kJoints,
+                    "torque that the spring, or the ideal actuator, applies", f.joint_torque[0]),
+      BALLBOT_REALS(TruthFrame, "p_WE", "p_WE", 3, "m", kAxes,
+                    "true end-effector position in the world", f.p_WE[0]),
+      BALLBOT_REALS(TruthFrame, "quat_WE", "quat_WE", 4, "", "w x y z",
+                    "true end-effector orientation in the world: w, x, y, z", f.quat_WE[0]),
+      BALLBOT_REALS(TruthFrame, "external_force_W", "external_force_W", 3, "N", kAxes,
+                    "sum of pushes, in the world", f.external_force_W[0]),
+      BALLBOT_REALS(TruthFrame, "contact_force_W", "contact_force_W", 3, "N", kAxes,
+                    "surroundings on the end-effector, in the world", f.contact_force_W[0]),
+      BALLBOT_REALS(TruthFrame, "contact_point_W", "contact_point_W", 3, "m", kAxes,
+                    "where that force acts, in the world; without contact p_WE",
+                    f.contact_point_W[0]),
+      BALLBOT_INTEGER(TruthFrame, SignalKind::kCode, "contact_phase", 2,
+                      "what the end-effector does: 0 touches nothing, 1 sticks, 2 slides",
+                      contact_phase),
+      BALLBOT_REALS(TruthFrame, "door_angle", "door_angle", 1, "rad", kOne,
+                    "true angle of the door from closed; 0 without a door", f.door_angle),
+      BALLBOT_REALS(TruthFrame, "door_rate", "door_rate", 1, "rad/s", kOne,
+                    "true rate of the door's angle; 0 without a door", f.door_rate),
+  };
+  return signals;
+}
+
+const std::vector<Signal<EstimateFrame>>& estimateSignals() {
+  static const std::vector<Signal<EstimateFrame>> signals = {
+      BALLBOT_REALS(EstimateFrame, "q", "ball_position_W", 2, "m", kPlane,
+                    "estimated position x, y of the ball centre in the world", f.state[kBallX]),
+      BALLBOT_REALS(EstimateFrame, "q", "base_angles", 3, "rad", "yaw pitch roll",
+                    "estimated yaw (continuous), pitch, roll of the base", f.state[kYaw]),
+      BALLBOT_REALS(EstimateFrame, "q", "arm_angle", 3, "rad", kArm,
+                    "estimated angles of the arm joints", f.state[kArm1]),
+      BALLBOT_REALS(EstimateFrame, "nu", "ball_velocity_W", 2, "m/s", kPlane,
+                    "estimated velocity x, y of the ball centre in the world",
+                    f.state[kPositionDim + kBallVx]),
+      BALLBOT_REALS(EstimateFrame, "nu", "base_rate_B", 3, "rad/s", kAxes,
+                    "estimated angular velocity of the base in the world, in the base frame",
+                    f.state[kPositionDim + kOmegaX]),
+      BALLBOT_REALS(EstimateFrame, "nu", "arm_rate", 3, "rad/s", kArm,
+                    "estimated rates of the arm joints", f.state[kPositionDim + kArmRate1]),
+      BALLBOT_REALS(EstimateFrame, "sigma", "sigma_ball_position_W", 2, "m", kPlane,
+                    "one standard deviation of ball_position_W", f.sigma[0]),
+      BALLBOT_REALS(EstimateFrame, "sigma", "sigma_tilt", 2, "rad", "1 2",
+                    "one standard deviation of the tilt about two axes", f.sigma[2]),
+      BALLBOT_REALS(EstimateFrame, "sigma", "sigma_yaw", 1, "rad", kOne,
+                    "one standard deviation of the yaw", f.sigma[4]),
+      BALLBOT_REALS(EstimateFrame, "sigma", "sigma_ball_velocity_W", 2, "m/s", kPlane,
+                    "one standard deviation of ball_velocity_W", f.sigma[5]),
+      BALLBOT_REALS(EstimateFrame, "sigma", "sigma_base_rate_B", 3, "rad/s", kAxes,
+                    "one standard deviation of base_rate_B", f.sigma[7]),
+      BALLBOT_REALS(EstimateFrame, "contact_force_W", "contact_force_W", 3, "N", kAxes,
+                    "environment on the end-effector, from the arm's torques, in the world",
+                    f.contact_force_W[0]),
+      BALLBOT_FLAG(EstimateFrame, "aligned",
+                   "0 until enough rest was seen to know tilt and gyro bias", aligned),
+  };
+  return signals;
+}
+
+const std::vector<Signal<PlanFrame>>& planSignals() {
+  static const std::vector<Signal<PlanFrame>> signals = {
+      BALLBOT_TIME(PlanFrame, "acts_from_ns", "acts_from", "when the plan comes into force",
+                   acts_from),
+      BALLBOT_FLAG(PlanFrame, "accepted", "0: the previous plan stays in force", accepted),
+      BALLBOT_INTEGER(PlanFrame, SignalKind::kNumber, "iterations", 1e9,
+                      "solver iterations of this call", iterations),
+      BALLBOT_REALS(PlanFrame, "cost", "cost", 1, "", kOne, "value of the cost along the plan",
+                    f.cost),
+      BALLBOT_REALS(PlanFrame, "step_length", "step_length", 1, "", kOne,
+                    "of the line search, 0 to 1", f.step_length),
+      BALLBOT_REALS(PlanFrame, "constraint_violation", "constraint_violation", 1, "", kOne,
+                    "largest violation of a constraint along the plan", f.constraint_violation),
+      BALLBOT_INTEGER(PlanFrame, SignalKind::kCode, "contact_state", 3,
+                      "0 no force asked for, 1 approach, 2 contact, 3 lost", contact_state),
+      BALLBOT_REALS(PlanFrame, "contact_asked_W", "contact_asked_W", 3, "N", kAxes,
+                    "force on the end-effector asked for, in the world", f.contact_asked_W[0]),
+      BALLBOT_REALS(PlanFrame, "contact_counted_on_W", "contact_counted_on_W", 3, "N", kAxes,
+                    "the same as the plan takes it: limited, dropped, added to",
+                    f.contact_counted_on_W[0]),
+      BALLBOT_INTEGER(PlanFrame, SignalKind::kCode, "status", 6,
+                      "0 nothing to solve, 1 improved, 2 converged, 3 no descent, 4 not finite, 5 "
+                      "not convex, 6 state not finite",
+                      status),
+      BALLBOT_FLAG(PlanFrame, "fallback", "the balancing LQR stands in, for lack of a good plan",
+                   fallback),
+      BALLBOT_REALS(PlanFrame, "predicted_decrease", "predicted_decrease", 1, "", kOne,
+                    "of the cost, by the quadratic model", f.predicted_decrease),
+      BALLBOT_REALS(PlanFrame, "regularisation", "regularisation", 1, "", kOne,
+                    "added to the diagonal of the input Hessian", f.regularisation),
+      BALLBOT_REALS(PlanFrame, "cost_terms", "cost_terms", 20, "", kOne,
+                    "the cost by task and barrier, see controller/cost_terms.hpp", f.cost_terms[0]),
   };
   return signals;
 }
 
 #undef BALLBOT_REALS
-#undef BALLBOT_NUMBER
+#undef BALLBOT_WHOLE
+#undef BALLBOT_INTEGER
 #undef BALLBOT_COUNT
+#undef BALLBOT_FLAG
 #undef BALLBOT_TIME
 
 }  // namespace ballbot

@@ -1,56 +1,14 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "model/external_forces.hpp"
+#include "model/reports.hpp"
+#include "model/signal.hpp"
 #include "model/signals.hpp"
 #include "model/truth.hpp"
 
 namespace ballbot {
-
-enum class SignalKind {
-  kReal,   ///< continuous
-  kCount,  ///< a whole number, below 2^53
-  kTime,   ///< whole nanoseconds inside, seconds outside
-};
-
-/// One named quantity of a frame: what the messages and the FMU's variables are made from. All its
-/// elements have one unit, so a message field of several (q: metres and radians) is several rows.
-template <typename Frame>
-struct Signal {
-  const char* message_field;  ///< field of the frame's .lcm type that carries it
-  const char* name;           ///< unique within the frame
-  int size;
-  SignalKind kind;
-  const char* unit;  ///< SI, as in the .lcm file; empty where there is none
-  const char* description;
-  /// All elements as doubles, in order, without loss of a bit; times in seconds.
-  void (*read)(const Frame& from, double* to);
-  void (*write)(Frame& to, const double* from);
-};
-
-/// A frame as a row of numbers, in the order of its signals. Its time is not in it.
-template <typename Frame>
-std::size_t rowSize(const std::vector<Signal<Frame>>& signals) {
-  std::size_t size = 0;
-  for (const auto& signal : signals) size += static_cast<std::size_t>(signal.size);
-  return size;
-}
-template <typename Frame>
-void readSignals(const std::vector<Signal<Frame>>& signals, const Frame& from, double* to) {
-  for (const auto& signal : signals) {
-    signal.read(from, to);
-    to += signal.size;
-  }
-}
-template <typename Frame>
-void writeSignals(const std::vector<Signal<Frame>>& signals, const double* from, Frame& to) {
-  for (const auto& signal : signals) {
-    signal.write(to, from);
-    from += signal.size;
-  }
-}
 
 /// Every quantity of the frames, in the order of the messages. The time a frame holds for is
 /// not among them: whoever exchanges frames knows it.
@@ -59,5 +17,14 @@ const std::vector<Signal<ActuatorCommand>>& commandSignals();
 const std::vector<Signal<ExternalForces>>& externalForceSignals();
 const std::vector<Signal<SensorFrame>>& sensorSignals();
 const std::vector<Signal<TruthFrame>>& truthSignals();
+const std::vector<Signal<EstimateFrame>>& estimateSignals();
+const std::vector<Signal<PlanFrame>>& planSignals();
+
+/// The same by the frame's type, for what is written once for all frames.
+inline const auto& signalsOf(const ActuatorCommand&) { return commandSignals(); }
+inline const auto& signalsOf(const SensorFrame&) { return sensorSignals(); }
+inline const auto& signalsOf(const TruthFrame&) { return truthSignals(); }
+inline const auto& signalsOf(const EstimateFrame&) { return estimateSignals(); }
+inline const auto& signalsOf(const PlanFrame&) { return planSignals(); }
 
 }  // namespace ballbot

@@ -9,6 +9,7 @@
 #include "core/angle.hpp"
 #include "core/error.hpp"
 #include "model/frames.hpp"
+#include "model/signal_check.hpp"
 #include "plant/drive_bank.hpp"
 #include "plant/plant_dynamics.hpp"
 #include "plant/state_visitors.hpp"
@@ -50,22 +51,9 @@ std::string stateForm(const PlantConfig& c) {
 }
 
 void requireFinite(const ActuatorCommand& command, SimTime t) {
-  const struct {
-    const char* name;
-    const JointVector& value;
-  } parts[] = {{"torque", command.torque},
-               {"position", command.position},
-               {"velocity", command.velocity},
-               {"stiffness", command.stiffness},
-               {"damping", command.damping}};
-  for (const auto& part : parts) {
-    for (int i = 0; i < kJointCount; ++i) {
-      if (std::isfinite(part.value[i])) continue;
-      throw NumericalError(
-          fmt::format("command at {}: {} of {} {} is {}, must be finite", toText(t), part.name,
-                      i < kWheelCount ? "wheel" : "arm joint", i % kWheelCount + 1, part.value[i]));
-    }
-  }
+  const std::string wrong = firstNonFinite(command);
+  if (wrong.empty()) return;
+  throw NumericalError(fmt::format("command at {}: {}, must be finite", toText(t), wrong));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/digest.hpp"
+#include "core/key_unit.hpp"
 #include "experiment/verdict.hpp"
 
 namespace ballbot {
@@ -100,7 +101,7 @@ ResultTable makeResultTable(const Study& study, const std::vector<StudyCase>& ca
   words("reason", [](const Row& row) { return row.r->reason; });
   numbers("simulated_s", "s", [](const Row& row) { return row.r->simulated_s; });
   for (const std::string& name : metrics) {
-    numbers(name, unitOfMetric(name), [&](const Row& row) {
+    numbers(name, unitOfKey(name), [&](const Row& row) {
       const auto it = row.r->metrics.find(name);
       return it == row.r->metrics.end() ? kNone : it->second;
     });

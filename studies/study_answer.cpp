@@ -103,8 +103,9 @@ std::string alongSteps(const StudyCurve& curve, const std::string& metric) {
     if (now) before = now;
   }
   return fmt::format("median {}; {}", values,
-                     changes.empty() ? std::string("no step changes it by more than the seeds scatter")
-                                     : "changed by more than the seeds scatter at " + changes);
+                     changes.empty()
+                         ? std::string("no step changes it by more than the seeds scatter")
+                         : "changed by more than the seeds scatter at " + changes);
 }
 
 std::string rangeOverPlaces(const StudyView& view, const std::string& metric) {
@@ -119,16 +120,16 @@ std::string rangeOverPlaces(const StudyView& view, const std::string& metric) {
         const auto spread = point.spread(metric);
         if (!spread) continue;
         std::string place = placeOf(view, panel, curve);
-        place += fmt::format("{}{} {}{}{}", place.empty() ? "" : ", ", view.along->name, point.label,
-                             view.along->unit.empty() ? "" : " ", view.along->unit);
+        place += fmt::format("{}{} {}{}{}", place.empty() ? "" : ", ", view.along->name,
+                             point.label, view.along->unit.empty() ? "" : " ", view.along->unit);
         if (!least || spread->middle < least->value) least = Extreme{spread->middle, place};
         if (!largest || spread->middle > largest->value) largest = Extreme{spread->middle, place};
       }
     }
   }
   if (!least) return "";
-  return fmt::format("median from {:.3g} ({}) to {:.3g} ({})", least->value, least->place, largest->value,
-                     largest->place);
+  return fmt::format("median from {:.3g} ({}) to {:.3g} ({})", least->value, least->place,
+                     largest->value, largest->place);
 }
 
 }  // namespace
@@ -190,7 +191,7 @@ std::vector<std::string> studyMetrics(const Study& study, const StudyView& view)
   std::vector<std::string> out;
   if (!view.along) return out;
   for (const std::string& metric : study.report.metrics) {
-    const std::string name = withUnit(metric, unitOfMetric(metric));
+    const std::string name = withUnit(metric, unitOfKey(metric));
     if (view.numeric) {
       const std::string range = rangeOverPlaces(view, metric);
       if (!range.empty()) out.push_back(fmt::format("{}: {}.", name, range));
@@ -199,7 +200,8 @@ std::vector<std::string> studyMetrics(const Study& study, const StudyView& view)
     for (const StudyPanel& panel : view.panels) {
       for (const StudyCurve& curve : panel.curves) {
         const std::string who = placeOf(view, panel, curve);
-        out.push_back(fmt::format("{}{}{}: {}.", name, who.empty() ? "" : ", ", who, alongSteps(curve, metric)));
+        out.push_back(fmt::format("{}{}{}: {}.", name, who.empty() ? "" : ", ", who,
+                                  alongSteps(curve, metric)));
       }
     }
   }

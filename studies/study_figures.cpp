@@ -71,7 +71,7 @@ SvgAxes successAxes(const Study& study, const StudyView& view, const StudyPanel&
 
 SvgAxes metricAxes(const StudyView& view, const StudyPanel& panel, const std::string& metric) {
   SvgAxes axes = axesAlong(view, panel);
-  axes.y_label = withUnit(metric, unitOfMetric(metric));
+  axes.y_label = withUnit(metric, unitOfKey(metric));
   int colour = 0;
   for (const StudyCurve& curve : panel.curves) {
     std::vector<double> x, middle, low, high;
@@ -83,8 +83,7 @@ SvgAxes metricAxes(const StudyView& view, const StudyPanel& panel, const std::st
       low.push_back(spread->low);
       high.push_back(spread->high);
     }
-    if (!x.empty())
-      addBand(axes, curveLabel(view, curve), colour % 6, x, middle, low, high);
+    if (!x.empty()) addBand(axes, curveLabel(view, curve), colour % 6, x, middle, low, high);
     ++colour;
   }
   return axes;

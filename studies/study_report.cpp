@@ -56,8 +56,7 @@ std::string heatMap(const StudyView& view, const StudyPanel& panel) {
   out += "</tr></thead><tbody>";
   for (const StudyCurve& curve : panel.curves) {
     if (curve.points.empty()) continue;
-    out += fmt::format("<tr><th scope=\"row\">{}</th>",
-                       escaped(curveLabel(view, curve)));
+    out += fmt::format("<tr><th scope=\"row\">{}</th>", escaped(curveLabel(view, curve)));
     for (const auto& column : columns) {
       const auto point = std::find_if(curve.points.begin(), curve.points.end(),
                                       [&](const auto& p) { return p.label == column.second; });
@@ -75,7 +74,7 @@ std::string caseRow(const Study& study, const StudyCase& c, const CaseResult& r,
                     const std::string& metric) {
   const auto it = r.metrics.find(metric);
   const std::string value =
-      it == r.metrics.end() ? "" : fmt::format("{:.4g} {}", it->second, unitOfMetric(metric));
+      it == r.metrics.end() ? "" : fmt::format("{:.4g} {}", it->second, unitOfKey(metric));
   return fmt::format(
       "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"number\">{}</td></tr>"
       "<tr class=\"command\"><td colspan=\"4\"><code>{}</code></td></tr>",

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/key_unit.hpp"
 #include "core/number_text.hpp"
 #include "cosim/log_reader.hpp"
 #include "experiment/estimate_log.hpp"
@@ -64,7 +65,8 @@ nlohmann::ordered_json toJson(const LogEstimate& e) {
   nlohmann::ordered_json out;
   for (const std::string& name : EstimationErrors::names()) {
     const auto it = e.metrics.find(name);  // null where the log says nothing about it
-    out[name] = it == e.metrics.end() ? nlohmann::ordered_json() : nlohmann::ordered_json(it->second);
+    out[name] =
+        it == e.metrics.end() ? nlohmann::ordered_json() : nlohmann::ordered_json(it->second);
   }
   out["rejected"] = nlohmann::ordered_json::object();
   for (const auto& [reason, count] : rejectionsAmong(e.metrics)) out["rejected"][reason] = count;
@@ -77,14 +79,15 @@ nlohmann::ordered_json toJson(const LogEstimate& e) {
 
 std::string onlineText(const LogEstimate& e) {
   if (e.compared == 0) return "the log holds none";
-  if (e.identical()) return fmt::format("identical, {} of {} estimates", e.compared, e.estimates.size());
+  if (e.identical())
+    return fmt::format("identical, {} of {} estimates", e.compared, e.estimates.size());
   return fmt::format("differs from {} on", toText(*e.first_difference));
 }
 
 void printTable(const LogEstimate& e, const std::vector<std::string>& files) {
   for (const auto& [name, value] : e.metrics) {
     if (name.rfind("rejected_", 0) == 0) continue;
-    fmt::print("  {:<32} {:>12.4g} {}\n", name, value, unitOfMetric(name));
+    fmt::print("  {:<32} {:>12.4g} {}\n", name, value, unitOfKey(name));
   }
   if (!e.has_truth) fmt::print("  the log holds no truth, so there are no errors\n");
   fmt::print("  {:<32} {}\n", "rejected", rejectionText(rejectionsAmong(e.metrics)));
@@ -130,11 +133,15 @@ ExitCode estimateRun(const EstimateArguments& a) {
 
 void addEstimateCommand(CLI::App& program, ExitCode& result) {
   CLI::App* command = program.add_subcommand(
-      "estimate", "Play a run's recorded sensors to the estimator again; errors, statistics, report");
+      "estimate",
+      "Play a run's recorded sensors to the estimator again; errors, statistics, report");
   const auto a = std::make_shared<EstimateArguments>();
-  command->add_option("run", a->run, "Run folder, or an LCM log with the same messages")->required();
+  command->add_option("run", a->run, "Run folder, or an LCM log with the same messages")
+      ->required();
   command->add_option("--scenario", a->scenario, "Whose robot and estimator, for a log alone");
-  command->add_option("--set", a->overrides, "path=value: another setting, e.g. estimator.iterations=3; repeatable")
+  command
+      ->add_option("--set", a->overrides,
+                   "path=value: another setting, e.g. estimator.iterations=3; repeatable")
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();

@@ -1,7 +1,7 @@
 #include "tools/live_feed.hpp"
 
 #include "ballbot_msgs/step_reply.hpp"
-#include "cosim/finite.hpp"
+#include "model/signal_check.hpp"
 #include "cosim/step_protocol.hpp"
 #include "messages/convert.hpp"
 
@@ -41,7 +41,7 @@ void LiveFeed::listen() {
     fromMessage(reply.truth[0], truth);
     if (!firstImpossible(truth, kLatestTime).empty()) continue;  // nothing that can be drawn
     due = WallTime::now() + kFramePeriod;
-    std::string frame = scene_.frame(reply.truth[0]);
+    std::string frame = scene_.frame(truth);
     const std::lock_guard<std::mutex> lock(mutex_);
     newest_ = std::move(frame);
     ++number_;

@@ -20,16 +20,19 @@ namespace {
 /// Enough for a line as wide as the picture.
 constexpr std::size_t kSamples = 400;
 
-using Message = ballbot_msgs::truth_frame;
-
 /// The panels of one run's picture.
 class Panels {
  public:
-  Panels(const Scenario& scenario, const RunLog& log) : log_(log), tables_(logTables(log)), reference_(readEeReference(scenario)), schedule_(reference_.schedule) {
+  Panels(const Scenario& scenario, const RunLog& log)
+      : log_(log),
+        tables_(logTables(log)),
+        reference_(readEeReference(scenario)),
+        schedule_(reference_.schedule) {
     for (const Push& push : scheduledPushes(scenario.tree)) {
       shaded_.push_back({toSeconds(push.start), toSeconds(push.end())});
     }
-    for (const ReportPhase& phase : contactPhases(log)) shaded_.push_back({phase.start_s, phase.end_s});
+    for (const ReportPhase& phase : contactPhases(log))
+      shaded_.push_back({phase.start_s, phase.end_s});
     stride_ = std::max<std::size_t>(1, log.truth.size() / kSamples);
   }
 
@@ -46,30 +49,38 @@ class Panels {
     SvgAxes axes;
     if (name == "ball") {
       axes.y_label = "ball [m]";
-      for (int i = 0; i < 2; ++i) addWithReference(axes, i == 0 ? "x" : "y", i, ballAsked(i), 1,
-          [i](const Message& m) { return m.q[kBallX + i]; },
-          [this, i](double t) { return tasksAt(t).ball_position[i]; });
+      for (int i = 0; i < 2; ++i)
+        addWithReference(
+            axes, i == 0 ? "x" : "y", i, ballAsked(i), 1,
+            [i](const TruthFrame& m) { return m.state[kBallX + i]; },
+            [this, i](double t) { return tasksAt(t).ball_position[i]; });
     } else if (name == "ee") {
       axes.y_label = "end-effector [m]";
-      for (int i = 0; i < 3; ++i) addWithReference(axes, std::string(1, static_cast<char>('x' + i)), i, eeAsked(i), 1,
-          [i](const Message& m) { return m.p_WE[i]; }, [this, i](double t) { return tasksAt(t).p_WE[i]; });
+      for (int i = 0; i < 3; ++i)
+        addWithReference(
+            axes, std::string(1, static_cast<char>('x' + i)), i, eeAsked(i), 1,
+            [i](const TruthFrame& m) { return m.p_WE[i]; },
+            [this, i](double t) { return tasksAt(t).p_WE[i]; });
     } else if (name == "ee_angles") {
       axes.y_label = "end-effector [deg]";
       const char* const names[] = {"yaw", "pitch", "roll"};
-      for (int i = 0; i < 3; ++i) addWithReference(axes, names[i], i, schedule_ != nullptr, kDegPerRad,
-          [this, i](const Message& m) { return poseOf(m)[3 + i]; },
-          [this, i](double t) { return askedPose(t)[3 + i]; });
+      for (int i = 0; i < 3; ++i)
+        addWithReference(
+            axes, names[i], i, schedule_ != nullptr, kDegPerRad,
+            [this, i](const TruthFrame& m) { return poseOf(m)[3 + i]; },
+            [this, i](double t) { return askedPose(t)[3 + i]; });
     } else if (name == "tilt") {
       axes.y_label = "base [deg]";
-      addTruth(axes, "pitch", 0, kDegPerRad, [](const Message& m) { return m.q[kPitch]; });
-      addTruth(axes, "roll", 1, kDegPerRad, [](const Message& m) { return m.q[kRoll]; });
+      addTruth(axes, "pitch", 0, kDegPerRad, [](const TruthFrame& m) { return m.state[kPitch]; });
+      addTruth(axes, "roll", 1, kDegPerRad, [](const TruthFrame& m) { return m.state[kRoll]; });
     } else if (name == "arm") {
       axes.y_label = "arm joint [rad]";
       for (int i = 0; i < 3; ++i)
-        addTruth(axes, "joint " + std::to_string(i + 1), i, 1, [i](const Message& m) { return m.q[kArm1 + i]; });
+        addTruth(axes, "joint " + std::to_string(i + 1), i, 1,
+                 [i](const TruthFrame& m) { return m.state[kArm1 + i]; });
     } else if (name == "force") {
       axes.y_label = "contact force [N]";
-      addTruth(axes, "on the door", 0, 1, [](const Message& m) {
+      addTruth(axes, "on the door", 0, 1, [](const TruthFrame& m) {
         return std::hypot(m.contact_force_W[0], m.contact_force_W[1]);
       });
       if (const LogTable* plan = findTable(tables_, "plan")) {
@@ -85,23 +96,20 @@ class Panels {
       }
     } else {
       axes.y_label = "door angle [deg]";
-      addTruth(axes, "door", 0, kDegPerRad, [](const Message& m) { return m.door_angle; });
+      addTruth(axes, "door", 0, kDegPerRad, [](const TruthFrame& m) { return m.door_angle; });
     }
     return axes;
   }
 
   PoseVector askedPose(double t) const { return reference_.at(kSimStart + durationFromSeconds(t)); }
-  PoseVector poseOf(const Message& m) const {
-    TruthFrame truth;
-    truth.p_WE << m.p_WE[0], m.p_WE[1], m.p_WE[2];
-    truth.quat_WE << m.quat_WE[0], m.quat_WE[1], m.quat_WE[2], m.quat_WE[3];
-    return eePose(truth, reference_.at(simTimeFromNs(m.sim_time_ns)));
-  }
+  PoseVector poseOf(const TruthFrame& m) const { return eePose(m, reference_.at(m.time)); }
 
   /// Whether a component has a weight at the run's end.
-  bool ballAsked(int i) const { return schedule_ && tasksAt(endTime()).ball_position_weight[i] > 0; }
+  bool ballAsked(int i) const {
+    return schedule_ && tasksAt(endTime()).ball_position_weight[i] > 0;
+  }
   bool eeAsked(int i) const { return schedule_ && tasksAt(endTime()).ee_position_weight[i] > 0; }
-  double endTime() const { return log_.truth.empty() ? 0 : 1e-9 * static_cast<double>(log_.truth.back().sim_time_ns); }
+  double endTime() const { return log_.truth.empty() ? 0 : toSeconds(log_.truth.back().time); }
   Tasks tasksAt(double t) const {
     Tasks tasks;
     schedule_->at(t, t, tasks);
@@ -109,18 +117,19 @@ class Panels {
   }
 
   template <typename Value>
-  void addTruth(SvgAxes& axes, const std::string& name, int colour, double scale, Value value) const {
+  void addTruth(SvgAxes& axes, const std::string& name, int colour, double scale,
+                Value value) const {
     SvgSeries series{name, colour, false, {}, {}};
     for (std::size_t i = 0; i < log_.truth.size(); i += stride_) {
-      series.x.push_back(1e-9 * static_cast<double>(log_.truth[i].sim_time_ns));
+      series.x.push_back(toSeconds(log_.truth[i].time));
       series.y.push_back(scale * value(log_.truth[i]));
     }
     axes.series.push_back(std::move(series));
   }
 
   template <typename Value, typename Reference>
-  void addWithReference(SvgAxes& axes, const std::string& name, int colour, bool asked, double scale, Value value,
-                        Reference reference) const {
+  void addWithReference(SvgAxes& axes, const std::string& name, int colour, bool asked,
+                        double scale, Value value, Reference reference) const {
     addTruth(axes, name, colour, scale, value);
     if (!asked) return;
     SvgSeries series{name + " reference", colour, true, axes.series.back().x, {}};

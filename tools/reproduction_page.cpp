@@ -29,15 +29,18 @@ svg{max-width:100%;height:auto}.scroll{overflow-x:auto}
 limits are the scenarios' own requirements.</p>
 )";
 
-std::string verdict(bool passed) { return passed ? "<span class='ok'>passed</span>" : "<span class='no'>MISSED</span>"; }
+std::string verdict(bool passed) {
+  return passed ? "<span class='ok'>passed</span>" : "<span class='no'>MISSED</span>";
+}
 
 std::string number(const std::string& metric, double value) {
-  const std::string unit = unitOfMetric(metric);
+  const std::string unit = unitOfKey(metric);
   return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
 std::string escaped(std::string text) {
-  for (const auto& [from, to] : {std::pair<const char*, const char*>{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}}) {
+  for (const auto& [from, to] :
+       {std::pair<const char*, const char*>{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}}) {
     const std::string what(from), by(to);
     for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
       text.replace(at, what.size(), by);
@@ -48,17 +51,21 @@ std::string escaped(std::string text) {
 
 /// Every requirement with its value, then the other numbers that matter.
 std::string numbersTable(const ReproducedExperiment& e) {
-  std::string out = "<div class='scroll'><table><tr><th>number</th><th>value</th><th>limit</th><th></th></tr>\n";
+  std::string out =
+      "<div class='scroll'><table><tr><th>number</th><th>value</th><th>limit</th><th></th></tr>\n";
   for (const VerdictRow& row : e.result->verdicts) {
-    out += fmt::format("<tr><td>{}</td><td class='n'>{}</td><td>{}</td><td>{}</td></tr>\n", row.metric,
-                       row.measured ? number(row.metric, row.value) : "none", escaped(row.limit), verdict(row.passed));
+    out += fmt::format("<tr><td>{}</td><td class='n'>{}</td><td>{}</td><td>{}</td></tr>\n",
+                       row.metric, row.measured ? number(row.metric, row.value) : "none",
+                       escaped(row.limit), verdict(row.passed));
   }
   for (const std::string& metric : e.experiment->metrics) {
     const auto& rows = e.result->verdicts;
-    const bool shown = std::any_of(rows.begin(), rows.end(), [&](const VerdictRow& r) { return r.metric == metric; });
+    const bool shown = std::any_of(rows.begin(), rows.end(),
+                                   [&](const VerdictRow& r) { return r.metric == metric; });
     const auto value = e.result->metrics.find(metric);
     if (shown || value == e.result->metrics.end()) continue;
-    out += fmt::format("<tr><td>{}</td><td class='n'>{}</td><td></td><td></td></tr>\n", metric, number(metric, value->second));
+    out += fmt::format("<tr><td>{}</td><td class='n'>{}</td><td></td><td></td></tr>\n", metric,
+                       number(metric, value->second));
   }
   return out + "</table></div>\n";
 }
@@ -67,16 +74,23 @@ std::string numbersTable(const ReproducedExperiment& e) {
 std::string spreadTable(const ReproducedExperiment& e) {
   const SeedSpread& spread = e.spread;
   if (spread.by_seed.empty()) return "";
-  std::string out = fmt::format("<p>Seeds 1 to {0}: {1} of {0} passed.</p>\n", spread.by_seed.size(), spread.passed());
-  for (const std::string& line : spread.missed()) out += fmt::format("<p class='no'>{}</p>\n", escaped(line));
-  out += "<div class='scroll'><table><tr><th>number</th><th>least</th><th>median</th><th>largest</th><th>limit</th></tr>\n";
+  std::string out = fmt::format("<p>Seeds 1 to {0}: {1} of {0} passed.</p>\n",
+                                spread.by_seed.size(), spread.passed());
+  for (const std::string& line : spread.missed())
+    out += fmt::format("<p class='no'>{}</p>\n", escaped(line));
+  out +=
+      "<div "
+      "class='scroll'><table><tr><th>number</th><th>least</th><th>median</th><th>largest</"
+      "th><th>limit</th></tr>\n";
   const auto metrics = spread.metrics();
   for (const VerdictRow& row : e.result->verdicts) {
     const auto at = metrics.find(row.metric);
     if (at == metrics.end()) continue;
-    out += fmt::format("<tr><td>{0}</td><td class='n'>{1}</td><td class='n'>{2}</td><td class='n'>{3}</td><td>{4}</td></tr>\n",
-                       row.metric, number(row.metric, at->second.least), number(row.metric, at->second.median),
-                       number(row.metric, at->second.largest), escaped(row.limit));
+    out += fmt::format(
+        "<tr><td>{0}</td><td class='n'>{1}</td><td class='n'>{2}</td><td "
+        "class='n'>{3}</td><td>{4}</td></tr>\n",
+        row.metric, number(row.metric, at->second.least), number(row.metric, at->second.median),
+        number(row.metric, at->second.largest), escaped(row.limit));
   }
   return out + "</table></div>\n";
 }
@@ -100,18 +114,24 @@ std::string reproductionPage(const std::vector<ReproducedExperiment>& experiment
   if (!comparisons.empty()) {
     out += "<div class='scroll'><table><tr><th>claim</th><th>measured</th><th></th></tr>\n";
     for (const Comparison& c : comparisons) {
-      out += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(c.claim), escaped(c.measured), verdict(c.passed));
+      out += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(c.claim),
+                         escaped(c.measured), verdict(c.passed));
     }
     out += "</table></div>\n";
   }
   for (const ReproducedExperiment& e : experiments) {
     out += fmt::format("<h2 id='{}'>{}</h2>\n", e.experiment->scenario, e.experiment->title);
-    out += fmt::format("<div class='pair'><div><h3>The paper</h3><p>{}</p></div><div><h3>Here: {}</h3><p>{}{}</p></div></div>\n",
-                       escaped(e.experiment->paper), verdict(e.result->passed), escaped(e.experiment->here),
-                       e.result->fell ? fmt::format(" The robot fell at {:.2f} s.", toSeconds(e.result->end)) : "");
+    out += fmt::format(
+        "<div class='pair'><div><h3>The paper</h3><p>{}</p></div><div><h3>Here: "
+        "{}</h3><p>{}{}</p></div></div>\n",
+        escaped(e.experiment->paper), verdict(e.result->passed), escaped(e.experiment->here),
+        e.result->fell ? fmt::format(" The robot fell at {:.2f} s.", toSeconds(e.result->end))
+                       : "");
     out += numbersTable(e) + spreadTable(e);
-    out += fmt::format("<div class='scroll'>{}</div>\n<p><a href='{}'>The run's own report</a>, with a replay in 3-D.</p>\n",
-                       e.figure, e.report_link);
+    out += fmt::format(
+        "<div class='scroll'>{}</div>\n<p><a href='{}'>The run's own report</a>, with a replay in "
+        "3-D.</p>\n",
+        e.figure, e.report_link);
   }
   return out + "</body></html>\n";
 }

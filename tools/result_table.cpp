@@ -14,8 +14,9 @@ namespace {
 /// Why nothing was measured, where that is known.
 std::string missingText(const Scenario& scenario, const RunResult& result) {
   if (result.end > scenario.release) return "";
-  return fmt::format("  nothing was judged: the stand held the robot until {}, and the run ended at {}\n",
-                     toText(scenario.release), toText(result.end));
+  return fmt::format(
+      "  nothing was judged: the stand held the robot until {}, and the run ended at {}\n",
+      toText(scenario.release), toText(result.end));
 }
 
 /// Limits that the robot went beyond.
@@ -25,7 +26,7 @@ std::string marginText(const RunResult& result) {
     const auto margin = result.metrics.find(name);
     if (margin == result.metrics.end() || margin->second >= 0) continue;
     out += fmt::format("  {:<32} {:>12.4g} {:<6} beyond the limit\n", name, margin->second,
-                       unitOfMetric(name));
+                       unitOfKey(name));
   }
   return out;
 }
@@ -35,7 +36,8 @@ std::string marginText(const RunResult& result) {
 std::string resultTable(const Scenario& scenario, const RunResult& result) {
   std::string out = fmt::format("{}: {}\n", scenario.name, result.passed ? "passed" : "MISSED");
   if (result.fell) {
-    out += fmt::format("  the robot fell at {}; see docs/troubleshooting/robot-falls.md\n", toText(result.end));
+    out += fmt::format("  the robot fell at {}; see docs/troubleshooting/robot-falls.md\n",
+                       toText(result.end));
   }
   if (!result.verdicts.empty()) {
     out += fmt::format("  {:<32} {:>12} {:<6} {:<12}\n", "requirement", "value", "", "limit");
@@ -43,8 +45,8 @@ std::string resultTable(const Scenario& scenario, const RunResult& result) {
   for (const VerdictRow& row : result.verdicts) {
     out += fmt::format("  {:<32} {:>12} {:<6} {:<12} {}\n", row.metric,
                        row.measured ? fmt::format("{:.4g}", row.value) : "not measured",
-                       row.measured ? unitOfMetric(row.metric) : "",
-                       row.limit, row.passed ? "ok" : "MISSED");
+                       row.measured ? unitOfKey(row.metric) : "", row.limit,
+                       row.passed ? "ok" : "MISSED");
   }
   out += missingText(scenario, result) + marginText(result);
   const auto rejected = rejectionsAmong(result.metrics);
@@ -58,9 +60,10 @@ std::string resultTable(const Scenario& scenario, const RunResult& result) {
   }
   const auto fallback = result.metrics.find(kFallbackPercent);
   if (fallback != result.metrics.end() && fallback->second > 0) {
-    out += fmt::format("  {:<32} {:.4g} % of the time{}; see docs/troubleshooting/plans-refused.md\n",
-                       "the LQR stood in for the MPC", fallback->second,
-                       result.no_plan_acted ? ": no plan ever acted" : "");
+    out +=
+        fmt::format("  {:<32} {:.4g} % of the time{}; see docs/troubleshooting/plans-refused.md\n",
+                    "the LQR stood in for the MPC", fallback->second,
+                    result.no_plan_acted ? ": no plan ever acted" : "");
   }
   out += fmt::format("  {:<32} {}\n", "trajectory digest", result.trajectory_digest);
   out += fmt::format("  {:<32} {:.2f} s in {:.2f} s, {:.2f} times real time\n", "simulated",

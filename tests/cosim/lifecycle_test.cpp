@@ -133,7 +133,7 @@ TEST(Lifecycle, ACommandThatIsNotFiniteNeverReachesTheParticipant) {
   ActuatorCommand command;
   command.torque[4] = std::numeric_limits<double>::infinity();
   EXPECT_EQ(wordsOf<NumericalError>([&] { brought.life.doStep(kSimStart, kStepLength, command); }),
-            "spring: command at 0.000000 s: torque of arm joint 2 is inf");
+            "spring: command at 0.000000 s: torque_arm2 is inf");
   EXPECT_EQ(brought.spring.stepsDone(), 0);
   EXPECT_EQ(brought.life.state(), S::kStep);
 }

@@ -101,7 +101,7 @@ TEST(Recorder, LogsWhatTheEstimatorConsumedAtItsPeriod) {
   const RunLog log = readRunLog(folder.file("log"));
   ASSERT_EQ(log.sensors.size(), 41U);
   for (std::size_t i = 0; i < log.sensors.size(); ++i) {
-    EXPECT_EQ(log.sensors[i].sim_time_ns, static_cast<std::int64_t>(i) * 2'500'000);
+    EXPECT_EQ(toNs(log.sensors[i].time), static_cast<std::int64_t>(i) * 2'500'000);
   }
   EXPECT_EQ(log.truth.size(), 41U);
   EXPECT_EQ(log.commands.size(), 41U);

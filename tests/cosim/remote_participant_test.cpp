@@ -390,23 +390,23 @@ TEST(RemoteParticipant, BelievesNoReplyThatCannotBe) {
               HasSubstr("plant answered request 2 with what cannot be: it stands at 1000001 ns and "
                         "was asked for 1000000 ns"));
   EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.sim_time_ns += kHour; }),
-              HasSubstr("joint time is 3600.001000 s, at 0.001000 s"));
+              HasSubstr("sensors.time is 3600.001000 s, at 0.001000 s"));
   EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.imu_time_ns += kHour; }),
-              HasSubstr("IMU time is 3600.001000 s, at 0.001000 s"));
+              HasSubstr("imu_time is 3600.001000 s, at 0.001000 s"));
   EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.pose_time_ns = kHour; }),
-              HasSubstr("pose time is 3600.000000 s, at 0.001000 s"));
+              HasSubstr("pose_time is 3600.000000 s, at 0.001000 s"));
   EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.imu_count = -1; }),
-              HasSubstr("IMU count is -1, must be 0 to 1000000000000"));
+              HasSubstr("imu_count is -1, must be 0 to 1000000000000"));
   EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.gyro_WB_B[1] = std::nan(""); }),
-              HasSubstr("angular velocity, axis y, is nan"));
+              HasSubstr("gyro_WB_B_y is nan"));
   EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.joint_torque[4] = -kInf; }),
-              HasSubstr("joint torque of arm joint 2 is -inf"));
+              HasSubstr("joint_torque_arm2 is -inf"));
   EXPECT_THAT(wordsOfStep([](Reply& r) { r.sensors.motor_angle[1] = 1e308; }),
-              HasSubstr("motor angle of wheel 2 is 1e+308 rad, beyond 1e+06"));
+              HasSubstr("motor_angle_wheel2 is 1e+308 rad, beyond 1e+06"));
   EXPECT_THAT(wordsOfStep([](Reply& r) { r.truth[0].q[3] = std::nan(""); }),
-              HasSubstr("true state, number 4, is nan"));
+              HasSubstr("truth.base_angles_pitch is nan"));
   EXPECT_THAT(wordsOfStep([](Reply& r) { r.truth[0].contact_phase = 17; }),
-              HasSubstr("contact phase is 17, must be 0 to 2"));
+              HasSubstr("truth.contact_phase is 17, must be 0 to 2"));
 }
 
 TEST(RemoteParticipant, CollectsNoStateWithoutEnd) {

@@ -89,7 +89,7 @@ TEST(StepMaster, ACommandThatIsNotFiniteIsTheControllersFault) {
   SpringRun run(local.guarded);
   run.controller.commandNanFrom(kSimStart + SimDuration{2'000'000});
   EXPECT_EQ(wordsOf<LostParticipantError>([&] { run.master.run(); }),
-            "tracker: command at 0.002000 s: torque of wheel 3 is nan");
+            "tracker: command at 0.002000 s: torque_wheel3 is nan");
 }
 
 TEST(StepMaster, CtrlCStopsBeforeTheNextEvent) {

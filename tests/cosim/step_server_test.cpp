@@ -227,7 +227,7 @@ TEST_F(StepServerTest, ACommandThatIsNotFiniteIsRefused) {
   command.stiffness[0] = std::numeric_limits<double>::quiet_NaN();
   const Reply reply = ask(client.step(kSimStart, kStepLength, command));
   EXPECT_EQ(reply.status, Reply::FAILED);
-  EXPECT_THAT(reply.text, HasSubstr("stiffness of wheel 1 is nan"));
+  EXPECT_THAT(reply.text, HasSubstr("stiffness_wheel1 is nan"));
 }
 
 TEST_F(StepServerTest, AStepFromAnotherTimeFails) {

@@ -12,9 +12,8 @@ TEST(LogTables, EachColumnHoldsItsOwnField) {
   log.truth.resize(2);
   for (int k = 0; k < 2; ++k) {
     auto& m = log.truth[static_cast<std::size_t>(k)];
-    m = {};
-    m.sim_time_ns = k * 5'000'000;
-    for (int i = 0; i < 8; ++i) m.q[i] = 10 * k + i;
+    m.time = simTimeFromNs(k * 5'000'000);
+    for (int i = 0; i < 8; ++i) m.state[i] = 10 * k + i;
     for (int i = 0; i < 6; ++i) m.joint_torque[i] = 100 * k + i;
     for (int i = 0; i < 3; ++i) m.contact_force_W[i] = -i - k;
   }
@@ -23,7 +22,7 @@ TEST(LogTables, EachColumnHoldsItsOwnField) {
   const LogTable& truth = *findTable(tables, "truth");
   EXPECT_EQ(truth.rowCount(), 2u);
   EXPECT_EQ(truth.column("time_s"), (std::vector<double>{0, 0.005}));
-  EXPECT_EQ(truth.column("pitch"), (std::vector<double>{3, 13}));
+  EXPECT_EQ(truth.column("base_angles_pitch"), (std::vector<double>{3, 13}));
   EXPECT_EQ(truth.column("joint_torque_arm3"), (std::vector<double>{5, 105}));
   EXPECT_EQ(truth.column("contact_force_W_z"), (std::vector<double>{-2, -3}));
   EXPECT_THROW(truth.column("beauty"), InputError);

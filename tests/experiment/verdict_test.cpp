@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/key_unit.hpp"
 #include "core/error.hpp"
 
 namespace ballbot {
@@ -49,11 +50,11 @@ TEST(Verdict, AnUnknownMetricIsRefusedWithThoseKnown) {
 }
 
 TEST(Verdict, UnitsFollowFromNames) {
-  EXPECT_EQ(unitOfMetric("largest_tilt_deg"), "deg");
-  EXPECT_EQ(unitOfMetric("velocity_rms_m_per_s"), "m/s");
-  EXPECT_EQ(unitOfMetric("largest_wheel_torque_Nm"), "N m");
-  EXPECT_EQ(unitOfMetric("final_ball_position_error_m"), "m");
-  EXPECT_EQ(unitOfMetric("fell"), "");
+  EXPECT_EQ(unitOfKey("largest_tilt_deg"), "deg");
+  EXPECT_EQ(unitOfKey("velocity_rms_m_per_s"), "m/s");
+  EXPECT_EQ(unitOfKey("largest_wheel_torque_Nm"), "N m");
+  EXPECT_EQ(unitOfKey("final_ball_position_error_m"), "m");
+  EXPECT_EQ(unitOfKey("fell"), "");
 }
 
 }  // namespace

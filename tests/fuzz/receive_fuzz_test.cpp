@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "cosim/finite.hpp"
+#include "model/signal_check.hpp"
 #include "cosim/lcm_bus.hpp"
 #include "cosim/lcm_transport.hpp"
 #include "cosim/remote_participant.hpp"

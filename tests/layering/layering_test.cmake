@@ -21,8 +21,8 @@ set(may_plant_participant ${may_plant} cosim)
 # The plant may not be simulated by the controller's model, and no controller code may see truth.
 set(never_plant model/reduced_dynamics.hpp model/newton_euler.hpp model/residual_derivatives.hpp
     model/dynamics_lanes.hpp model/end_effector.hpp)
-set(never_controller model/truth.hpp model/signal_table.hpp)
-set(never_estimator model/truth.hpp model/signal_table.hpp)
+set(never_controller model/truth.hpp model/signal_table.hpp model/signal_check.hpp)
+set(never_estimator model/truth.hpp model/signal_table.hpp model/signal_check.hpp)
 
 # Emulated drives that shared the master's codec would share its mistakes: of hil/ they may know
 # only what carries frames, and nothing of hil/ may know them.

@@ -133,19 +133,56 @@ TEST(Convert, ATruthFrameKeepsEveryBit) {
   EXPECT_EQ(back.door_rate, truth.door_rate);
 }
 
-TEST(Convert, AnEstimateKeepsStateAndDeviation) {
-  StateVector x;
-  Eigen::Matrix<double, 10, 1> sigma;
+TEST(Convert, AnEstimateKeepsEveryBit) {
+  EstimateFrame estimate;
   int i = 3;
-  fill(x, i);
-  fill(sigma, i);
+  estimate.time = simTimeFromNs(2'500'000);
+  fill(estimate.state, i);
+  fill(estimate.sigma, i);
+  fill(estimate.contact_force_W, i);
+  estimate.aligned = true;
   ballbot_msgs::state_estimate message{};
-  toMessage(simTimeFromNs(2'500'000), x, sigma, true, message);
-  const ballbot_msgs::state_estimate back = overTheWire(message);
-  EXPECT_EQ(back.sim_time_ns, 2'500'000);
+  toMessage(estimate, 9, message);
+  EXPECT_EQ(message.tick, 9);
+  EstimateFrame back;
+  fromMessage(overTheWire(message), back);
+  EXPECT_EQ(back.time, estimate.time);
   EXPECT_TRUE(back.aligned);
-  EXPECT_TRUE(sameBits(stateOf(back), x));
-  EXPECT_EQ(std::memcmp(back.sigma, sigma.data(), sizeof back.sigma), 0);
+  EXPECT_TRUE(sameBits(back.state, estimate.state));
+  EXPECT_TRUE(sameBits(back.sigma, estimate.sigma));
+  EXPECT_TRUE(sameBits(back.contact_force_W, estimate.contact_force_W));
+}
+
+TEST(Convert, APlanKeepsEveryBit) {
+  PlanFrame plan;
+  int i = 1;
+  plan.time = simTimeFromNs(14'000'000);
+  plan.acts_from = simTimeFromNs(28'000'001);
+  plan.accepted = true;
+  plan.iterations = 3;
+  plan.contact_state = 2;
+  plan.status = 5;
+  plan.cost = awkward(i++);
+  plan.regularisation = awkward(i++);
+  fill(plan.contact_asked_W, i);
+  fill(plan.contact_counted_on_W, i);
+  for (double& term : plan.cost_terms) term = awkward(i++);
+  ballbot_msgs::plan_report message{};
+  toMessage(plan, 11, message);
+  PlanFrame back;
+  fromMessage(overTheWire(message), back);
+  EXPECT_EQ(back.time, plan.time);
+  EXPECT_EQ(back.acts_from, plan.acts_from);
+  EXPECT_TRUE(back.accepted);
+  EXPECT_FALSE(back.fallback);
+  EXPECT_EQ(back.iterations, 3);
+  EXPECT_EQ(back.contact_state, 2);
+  EXPECT_EQ(back.status, 5);
+  EXPECT_EQ(back.cost, plan.cost);
+  EXPECT_EQ(back.regularisation, plan.regularisation);
+  EXPECT_TRUE(sameBits(back.contact_asked_W, plan.contact_asked_W));
+  EXPECT_TRUE(sameBits(back.contact_counted_on_W, plan.contact_counted_on_W));
+  EXPECT_EQ(std::memcmp(back.cost_terms.data(), plan.cost_terms.data(), sizeof plan.cost_terms), 0);
 }
 
 }  // namespace

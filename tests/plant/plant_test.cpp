@@ -263,7 +263,7 @@ TEST(Plant, RefusesACommandThatIsNotFinite) {
   command.velocity[4] = std::nan("");
   EXPECT_THROW(plant.advanceTo(ms(11), command), NumericalError);
   EXPECT_EQ(messageOf([&] { plant.advanceTo(ms(11), command); }),
-            "command at 0.010000 s: velocity of arm joint 2 is nan, must be finite");
+            "command at 0.010000 s: velocity_arm2 is nan, must be finite");
   EXPECT_EQ(plant.stateDigest(), digest);
 }
 

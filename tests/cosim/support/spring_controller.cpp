@@ -3,8 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "messages/convert.hpp"
-
 namespace ballbot::testing_support {
 
 void SpringController::onSensors(SimTime now, const SensorFrame& sensors, DueTasks due,
@@ -15,12 +13,13 @@ void SpringController::onSensors(SimTime now, const SensorFrame& sensors, DueTas
     ++plans_;
     out.has_plan = true;
     out.plan = {};
-    out.plan.sim_time_ns = toNs(now);
+    out.plan.time = now;
     out.plan.cost = target_;
     out.plan.iterations = static_cast<std::int32_t>(plans_);
-    StateVector x = StateVector::Zero();
-    x.head<6>() = sensors.joint_angle;
-    toMessage(now, x, Eigen::Matrix<double, 10, 1>::Ones(), true, out.estimate);
+    out.estimate.time = now;
+    out.estimate.state.head<6>() = sensors.joint_angle;
+    out.estimate.sigma.setOnes();
+    out.estimate.aligned = true;
     out.has_estimate = true;
   }
   if (due.has(tracker_)) {
