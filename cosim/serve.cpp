@@ -67,6 +67,9 @@ class Host {
   void listen() {
     const bool any = transport_.receive(request_, kStopInterval);
     now_ = WallClock::now();
+    if (options_.news) {
+      if (const std::string text = options_.news(); !text.empty()) say(text);
+    }
     if (!any) return;
     const std::int64_t served = server_.served();
     const std::int64_t resent = server_.resent();

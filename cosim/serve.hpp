@@ -28,6 +28,8 @@ struct ServeOptions {
   const std::atomic<bool>* stop = nullptr;
   /// Told by the participant while a request takes it long; the master's patience begins anew then.
   BusySignal* busy = nullptr;
+  /// Asked while nobody speaks: what a person should know meanwhile; empty where there is nothing.
+  std::function<std::string()> news;
   /// Words for a person, e.g. to print on stderr: session opened, session closed, ...
   std::function<void(const std::string&)> say;
 };

@@ -103,7 +103,14 @@ void readDrive(Reader& reader, std::int64_t type, const DriveConfig& drive,
     report.temperature_degC = 0.1 * static_cast<double>(static_cast<std::int16_t>(*heat));
   }
   if (const auto word = reader.number("statusword", 0x6041)) {
-    report.state = toText(driveState(static_cast<std::uint16_t>(*word)));
+    const DriveState state = driveState(static_cast<std::uint16_t>(*word));
+    report.state = toText(state);
+    if (state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive) {
+      report.disagreements.push_back(
+          "its torque is on, and no program of this bench commands it: pull its switch, or serve "
+          "the "
+          "bench, which takes the torque off first");
+    }
   }
   const auto error = static_cast<std::uint16_t>(reader.number("error code", 0x603F).value_or(0));
   if (error != 0) report.last_error = fmt::format("{:04X} {}", error, errorCodeText(error));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <vector>
 
@@ -18,8 +19,9 @@ class BenchIo {
   /// Sends what is in the master's outboxes, bus 0 first.
   void send() noexcept;
   /// Hands over what arrives, and sends what the master answers, until it awaits nothing or
-  /// `until`. False if something was still awaited then.
-  bool collect(std::chrono::steady_clock::time_point until) noexcept;
+  /// `until`; not much longer once `stop` is set. False if something was still awaited then.
+  bool collect(std::chrono::steady_clock::time_point until,
+               const std::atomic<bool>* stop = nullptr) noexcept;
   bool allUp() const noexcept;
   /// Bits of all frames that went over a bus, either way: nominal and with the most stuffing.
   const FrameBits& load(int bus) const noexcept { return load_[static_cast<std::size_t>(bus)]; }

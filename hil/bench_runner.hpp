@@ -40,6 +40,8 @@ class BenchRunner {
   /// @throw TorqueNotOffError, LostParticipantError.
   virtual void requireGoodEnd() = 0;
   virtual const Bench& bench() const = 0;
+  /// Whether a check has fired, for whoever waits meanwhile; from any thread.
+  virtual bool hasFault() const noexcept { return false; }
   /// The last seconds of the bench; to be read once its cycles have ended.
   virtual const FlightRecorder& recorder() const = 0;
 

@@ -62,7 +62,10 @@ void requireGoodEnd(const Bench& bench) {
                             (why.empty() ? "" : "It had stopped: " + why));
   }
   if (bench.safety().state() == SafetyState::kFault) {
-    throw LostParticipantError("bench", "bench: stopped, torque is off: " + bench.faultText());
+    const char* end = bench.wayDown().underWay() ? "torque is off, as every drive has said"
+                                                 : "no drive had been asked for torque";
+    throw LostParticipantError("bench",
+                               fmt::format("bench: stopped, {}: {}", end, bench.faultText()));
   }
 }
 

@@ -49,6 +49,13 @@ void HilParticipant::terminate() {
 }
 
 void HilParticipant::requireShort(SimDuration step) const {
+  if (step % period_ != SimDuration::zero()) {
+    runner_.release();
+    throw InputError(fmt::format(
+        "hil: a step of {:.6g} ms, and the bus has a cycle of {:.6g} ms: periods of the scenario's "
+        "`rates` must be whole multiples of the bench file's cycle_us",
+        1e3 * toSeconds(step), 1e3 * toSeconds(period_)));
+  }
   const SimDuration longest = runner_.bench().config().safety.watchdog_cycles * period_;
   if (step <= longest) return;
   runner_.release();

@@ -58,11 +58,13 @@ bool RealtimeRunner::waitForNews() noexcept {
 
 void RealtimeRunner::throwIfFault() {
   if (state_.load(std::memory_order_acquire) != SafetyState::kFault) return;
-  throw LostParticipantError("bench", "bench: stopped: " + bench_.faultText());
+  release();  // its loop takes the torque off; whoever asks hears how that ended
+  requireGoodEnd();
 }
 
 void RealtimeRunner::throwIfStopped() {
   if (!stopWanted()) return;
+  if (say_) say_("stopped by a person: torque is being called off");
   release();
   requireGoodEnd();
   throw InterruptedError("bench: stopped by a person; torque is off");

@@ -44,6 +44,9 @@ class RealtimeRunner final : public BenchRunner {
   const BenchSample& sample(std::int64_t cycle) override;
   void release() noexcept override;
   void requireGoodEnd() override;
+  bool hasFault() const noexcept override {
+    return state_.load(std::memory_order_acquire) == SafetyState::kFault;
+  }
   /// Only what does not change while the loop runs, or after it has ended.
   const Bench& bench() const override { return bench_; }
   /// After finish().

@@ -78,7 +78,9 @@ bool pollReadable(int descriptor, std::chrono::nanoseconds timeout) noexcept {
   const std::int64_t ns = timeout.count() > 0 ? timeout.count() : 0;
   const timespec wait{ns / kSecond, ns % kSecond};
   pollfd entry{descriptor, POLLIN, 0};
-  return ::ppoll(&entry, 1, &wait, nullptr) > 0;
+  // A signal is no answer and no end of waiting: who waits looks again, and at its own deadline.
+  const int ready = ::ppoll(&entry, 1, &wait, nullptr);
+  return ready > 0 || (ready < 0 && errno == EINTR);
 }
 
 }  // namespace ballbot

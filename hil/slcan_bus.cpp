@@ -16,6 +16,8 @@ using WallClock = std::chrono::steady_clock;
 constexpr int kRates[] = {10, 20, 50, 100, 125, 250, 500, 800, 1000};  // S0 to S8
 constexpr milliseconds kReplyTimeout{1000};
 constexpr milliseconds kSettling{20};
+// A channel that a host left open goes on bringing frames; for so long they are passed over.
+constexpr milliseconds kDraining{200};
 
 /// The digit of the S command for a bit rate.
 char rateDigit(const std::string& device, int bitrate_kbps) {
@@ -45,7 +47,8 @@ SlcanBus::SlcanBus(const std::string& device, const CanBusSettings& settings)
     : settings_(settings), rate_(rateDigit(device, settings.bitrate_kbps)), port_(device) {
   // Ends whatever an earlier host left half written, and drops what the adapter says to that.
   port_.write("\r\r", 2);
-  while (port_.waitReadable(kSettling) && up_) {
+  const auto settled = WallClock::now() + kDraining;
+  while (WallClock::now() < settled && port_.waitReadable(kSettling) && up_) {
     fill();
     input_begin_ = input_end_ = 0;
   }

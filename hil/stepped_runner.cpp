@@ -42,7 +42,7 @@ void SteppedRunner::sense() noexcept {
   bench_.master().beginCycle();
   recorder_.beginCycle(bench_.master().cycle());
   io_.send();
-  answers_missing_ = !io_.collect(std::chrono::steady_clock::now() + patience());
+  answers_missing_ = !io_.collect(std::chrono::steady_clock::now() + patience(), stop_);
   bench_.master().endCycle();
   bench_.observe();
   actuated_ = false;
@@ -79,6 +79,7 @@ void SteppedRunner::throwIfFault() {
 
 void SteppedRunner::throwIfStopped() {
   if (!stopWanted()) return;
+  if (say_) say_("stopped by a person: torque is being called off");
   release();
   requireGoodEnd();
   throw InterruptedError("bench: stopped by a person; torque is off");

@@ -88,7 +88,7 @@ std::string recordPath(const CommissionArguments& a) {
 
 /// Brings the bench down whatever happened, and says so.
 CommissioningReport commissionOn(BenchRunner& runner) {
-  runner.setStopFlag(interruptFlag());
+  runner.setStopFlag(interruptFlag(SecondSignal::kIsAbsorbed));
   PersonAtTerminal person;
   try {
     CommissioningReport report = commission(runner, person);

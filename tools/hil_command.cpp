@@ -2,9 +2,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "cosim/lcm_transport.hpp"
@@ -24,6 +26,7 @@
 #include "tools/bench_record.hpp"
 #include "tools/bench_report.hpp"
 #include "tools/bench_scenario.hpp"
+#include "tools/bench_tables.hpp"
 #include "tools/commands.hpp"
 #include "tools/commission_bench.hpp"
 #include "tools/interrupt.hpp"
@@ -45,53 +48,6 @@ struct HilArguments {
   int random = 0;
   std::uint64_t seed = 1;
 };
-
-ExitCode showRows(const std::vector<FaultRow>& rows, bool json) {
-  bool held = true;
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  if (!json) {
-    fmt::print("{:<4} {:<62} {:<10} {:<26} {:>5} {:>6} {:>4}  {}\n", "", "fault", "runner",
-               "expected", "bound", "cycles", "exit", "what the bench said");
-  }
-  for (const FaultRow& r : rows) {
-    held = held && r.held;
-    list.push_back({{"name", r.fault},
-                    {"runner", toText(r.runner)},
-                    {"expected", r.expected},
-                    {"bound_cycles", r.bound_cycles},
-                    {"measured_cycles", r.measured_cycles},
-                    {"check", r.check},
-                    {"reason", r.reason},
-                    {"exit_code", r.exit_code},
-                    {"says_off", r.says_off},
-                    {"torque_on", r.torque_on},
-                    {"held", r.held}});
-    if (json) continue;
-    fmt::print("{:<4} {:<62} {:<10} {:<26} {:>5} {:>6} {:>4}  {}\n", r.held ? "ok" : "MISS",
-               r.fault, toText(r.runner), r.expected, r.bound_cycles, r.measured_cycles,
-               r.exit_code, r.reason);
-  }
-  if (json) fmt::print("{}\n", jsonText(nlohmann::ordered_json{{"rows", list}, {"held", held}}));
-  return held ? ExitCode::kPassed : ExitCode::kRequirementMissed;
-}
-
-ExitCode showChecks(bool json) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const Check& c : checkTable()) {
-    if (c.fault == BenchFault::kNone) continue;
-    const bool damps = c.reaction == FirstReaction::kDamp;
-    list.push_back({{"name", c.name},
-                    {"words", c.words},
-                    {"reaction", damps ? "damping, then torque off" : "torque off"},
-                    {"bound_cycles", c.bound_cycles},
-                    {"page", c.page}});
-    if (json) continue;
-    fmt::print("{:<20} {:<76} {:<25} {:>4}  {}\n", c.name, c.words,
-               damps ? "damping, then torque off" : "torque off", c.bound_cycles, c.page);
-  }
-  if (json) fmt::print("{}\n", jsonText(nlohmann::ordered_json{{"checks", list}}));
-  return ExitCode::kPassed;
-}
 
 void requireFreeAddress(const LcmAddress& address) {
   LcmTransport master_end(address, LinkEnd::kMaster);
@@ -159,6 +115,13 @@ Ending serveRunner(BenchRunner& runner, const HilArguments& a, std::uint64_t dig
   options.busy = &busy;
   runner.setSay([&busy](const std::string& doing) { busy.tell(doing); });
   options.say = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
+  // In real time the bench goes on by itself; a person must not wait for a controller to hear it.
+  options.news = [&runner, said = false]() mutable -> std::string {
+    if (said || !runner.hasFault()) return "";
+    said = true;
+    return "STOPPED: a check has fired and the drives are being brought down; which one is said "
+           "when the session ends";
+  };
   runner.setStopFlag(options.stop);
   Ending ending;
   try {
@@ -182,7 +145,8 @@ ExitCode conclude(const Bench& bench, const Ending& ending) {
   if (ending.lost) std::rethrow_exception(ending.lost);
   if (ending.served.end == ServeEnd::kInterrupted) return ExitCode::kInterrupted;
   if (ending.served.end == ServeEnd::kAborted) {
-    throw LostParticipantError("controller", "hil: the controller gave up; torque is off");
+    throw LostParticipantError("controller",
+                               "hil: the controller ended the session; torque is off");
   }
   return ExitCode::kPassed;
 }
@@ -224,6 +188,7 @@ FloorSettings floorOf(const BenchConfig& config) {
 }
 
 ExitCode serveBench(const HilArguments& a) {
+  interruptFlag(SecondSignal::kIsAbsorbed);
   const ConfigNode tree = loadBenchTree(a.config, a.overrides);
   const BenchConfig config = readBenchConfig(tree);
   const std::uint64_t digest = configDigest64(loadBenchScenario(config, a.config));
@@ -324,7 +289,29 @@ void addTables(CLI::App& command, HilArguments& a) {
                    "Print what the bench checks: name, words, reaction, bound, page");
 }
 
+/// Options that say what to do: one of them, but for --commission with --faults or --rehearse.
+void requireOneThingToDo(const HilArguments& a) {
+  std::vector<std::string> asked;
+  const std::pair<const char*, bool> things[] = {
+      {"--checks", a.checks},         {"--faults", a.faults && !a.commission},
+      {"--commission", a.commission}, {"--show-record", !a.show_record.empty()},
+      {"--budget", a.budget},         {"--check", a.check}};
+  for (const auto& [name, is] : things) {
+    if (is) asked.emplace_back(name);
+  }
+  if (asked.size() > 1) {
+    throw InputError(fmt::format("hil: {} are different things to do; give one of them",
+                                 fmt::join(asked, ", ")));
+  }
+  if (a.random > 0 && !a.faults) throw InputError("hil: --random goes with --faults");
+  if (a.rehearse && !a.commission) throw InputError("hil: --rehearse goes with --commission");
+  if (a.keep_serving && !asked.empty()) {
+    throw InputError(fmt::format("hil: --keep-serving is about serving, not about {}", asked[0]));
+  }
+}
+
 ExitCode runHil(const HilArguments& a) {
+  requireOneThingToDo(a);
   if (a.checks) return showChecks(a.json);
   if (a.commission && a.faults) return showCommissioningCases(a.json);
   if (a.commission && a.rehearse) return rehearseCommission(a.json);
@@ -362,7 +349,7 @@ void addHilCommand(CLI::App& program, ExitCode& result) {
       "  ballbot hil --show-record runs/bench-drive_fault-1.0575s\n"
       "Software is no emergency stop: docs/hil.md.\n"
       "Exit codes: 0 the run ended, 1 a fault did not end as it must (--faults), or\n"
-      "commissioning found something wrong, 2 bad input,\n"
+      "commissioning or --check found something wrong, 2 bad input, or a damaged record,\n"
       "3 a check of the bench fired or the controller was lost, 4 a record that was asked for "
       "could\n"
       "not be written, 5 a drive has not said that its torque is off: pull the switch that is "

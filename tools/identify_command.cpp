@@ -1,10 +1,15 @@
+#include <cerrno>
+#include <cstring>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "core/angle.hpp"
 #include "hil/bus_budget.hpp"
@@ -117,6 +122,29 @@ ExitCode identifyEmulated(const IdentifyArguments& a, const ConfigNode& tree) {
   return trials.honest() ? ExitCode::kPassed : ExitCode::kRequirementMissed;
 }
 
+/// What is written must not stand where something is read that the result is made of.
+void requireOtherFiles(const IdentifyArguments& a, const std::string& scenario) {
+  const std::pair<const char*, const std::string&> outputs[] = {
+      {"--out", a.files.scenario},
+      {"--actuator-out", a.files.actuator},
+      {"--bench-out", a.files.bench},
+      {"--figure", a.files.figure}};
+  for (const auto& [option, path] : outputs) {
+    if (path.empty()) continue;
+    for (const std::string& input : {a.config, scenario}) {
+      std::error_code none;
+      if (!std::filesystem::equivalent(path, input, none)) continue;
+      throw InputError(fmt::format("{} {}: this file is read, and would be lost; give another name",
+                                   option, path));
+    }
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    if (!folder.empty() && ::access(folder.c_str(), W_OK) != 0) {
+      throw OutputError(
+          fmt::format("{} {}: cannot be written: {}", option, path, std::strerror(errno)));
+    }
+  }
+}
+
 ExitCode identifyOnBench(IdentifyArguments a) {
   const ConfigNode tree = loadBenchTree(a.config, a.overrides);
   const BenchConfig config = readBenchConfig(tree);
@@ -128,6 +156,8 @@ ExitCode identifyOnBench(IdentifyArguments a) {
   a.fit.assumed_stiffness = drive.scaling.spring_stiffness;
   if (a.seeds > 0) return identifyEmulated(a, tree);
   const ScenarioToChange scenario = scenarioToChange(a.scenario, config, a.config, a.plan.drive);
+  requireOtherFiles(a, a.scenario);
+  interruptFlag(SecondSignal::kIsAbsorbed);
   std::vector<std::unique_ptr<CanBus>> owned;
   std::vector<CanBus*> buses;
   for (const BusConfig& bus : config.buses) {
@@ -161,6 +191,7 @@ ExitCode identifyOnBench(IdentifyArguments a) {
 void addExcitationOptions(CLI::App& command, IdentifyArguments& a) {
   command.add_option("--drive", a.drive, "1 to 3: wheels, 4 to 6: arm")->check(CLI::Range(1, 6));
   command.add_option("--amplitude-Nm", a.plan.amplitude_Nm, "The most torque that is asked for")
+      ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
   command.add_option("--low-Hz", a.plan.low_Hz, "Lowest frequency of the torque response")
       ->capture_default_str();

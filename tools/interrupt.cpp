@@ -5,10 +5,10 @@
 namespace ballbot {
 namespace {
 
-std::atomic<bool> interrupted{false};
+std::atomic<bool> interrupted{false}, absorbs{false};
 
 extern "C" void onSignal(int number) {
-  if (interrupted.exchange(true)) {
+  if (interrupted.exchange(true) && !absorbs.load()) {
     std::signal(number, SIG_DFL);
     std::raise(number);
   }
@@ -16,7 +16,8 @@ extern "C" void onSignal(int number) {
 
 }  // namespace
 
-const std::atomic<bool>* interruptFlag() {
+const std::atomic<bool>* interruptFlag(SecondSignal second) {
+  if (second == SecondSignal::kIsAbsorbed) absorbs = true;
   struct sigaction action {};
   action.sa_handler = onSignal;  // without SA_RESTART, so that a waiting poll() wakes up
   sigaction(SIGINT, &action, nullptr);

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/printable_text.hpp"
+#include "hil/record/record_sums.hpp"
 #include "report/json_text.hpp"
 #include "tools/bench_record.hpp"
 
@@ -114,7 +116,8 @@ std::string textOf(const RecordJson& j, const char* key) { return j.at(key).get<
 
 std::string checksText(const RecordJson& j, double zero) {
   const RecordJson& first = j.at("first_check");
-  std::string text = "first check: none fired\n";
+  const bool any = !j.at("checks").empty();
+  std::string text = any ? "first check: none stopped the bench\n" : "first check: none fired\n";
   if (!first.is_null()) {
     text = fmt::format("first check: {}, cycle {}, {:.6f} s: {}\n  then {}; {}\n",
                        textOf(first, "name"), first.at("cycle").get<std::int64_t>(),
@@ -123,8 +126,9 @@ std::string checksText(const RecordJson& j, double zero) {
   }
   for (std::size_t i = first.is_null() ? 0 : 1; i < j.at("checks").size(); ++i) {
     const RecordJson& c = j["checks"][i];
-    text += fmt::format("later: {:+.4f} s, cycle {}: {}: {}\n", c.at("time_s").get<double>() - zero,
-                        c.at("cycle").get<std::int64_t>(), textOf(c, "name"), textOf(c, "text"));
+    text += fmt::format("{}: {:+.4f} s, cycle {}: {}: {}\n", first.is_null() ? "noticed" : "later",
+                        c.at("time_s").get<double>() - zero, c.at("cycle").get<std::int64_t>(),
+                        textOf(c, "name"), textOf(c, "text"));
   }
   return text;
 }
@@ -156,6 +160,11 @@ void showRecord(const std::string& folder, bool json) {
   } catch (const nlohmann::json::exception& e) {
     throw InputError(
         fmt::format("{}/record.json: not the record of a bench: {}", folder, e.what()));
+  }
+  const std::vector<std::string> damage = recordDamage(folder);
+  if (!damage.empty()) {
+    throw InputError(fmt::format("{}: DAMAGED, what is printed may not be what happened: {}",
+                                 folder, fmt::join(damage, "; ")));
   }
 }
 

@@ -1,5 +1,7 @@
 #include "hil/emulator/emulator_config.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/angle.hpp"
@@ -35,7 +37,12 @@ FaultOrder readFault(ConfigReader& in) {
                                      {"tilt", F::kTilt},
                                      {"warning", F::kWarning}});
   order.drive = in.integerOr("drive", 1, {1, 6}) - 1;
-  order.value = in.numberOr("value", 0);
+  // Without one these would do nothing, and a bench would seem tested.
+  const F in_need[] = {F::kEmergency,    F::kUnannouncedFault, F::kStatusword, F::kPositionJump,
+                       F::kSyncHeldBack, F::kRunaway,          F::kTilt};
+  const bool needs =
+      std::find(std::begin(in_need), std::end(in_need), order.kind) != std::end(in_need);
+  order.value = needs ? in.number("value") : in.numberOr("value", 0);
   in.finish();
   return order;
 }
@@ -58,8 +65,8 @@ void readOptions(ConfigReader& in, const char* key, std::vector<int>& options) {
 /// What other vendors do otherwise.
 void readDeviations(ConfigReader& in, EmulatedDriveParameters& p) {
   p.name = in.textOr("name", p.name);
-  // Those of invented devices, so that no real one can be taken for one of these; from BA20 on of such
-  // that do not say that they are emulated.
+  // Those of invented devices, so that no real one can be taken for one of these; from BA20 on of
+  // such that do not say that they are emulated.
   p.product_code = in.integerOr("product_code", static_cast<int>(p.product_code), {0xBA10, 0xBA2F});
   p.torque_reference_mNm =
       in.integerOr("torque_reference_mNm", static_cast<int>(p.torque_reference_mNm), {1, 1e6});
@@ -84,8 +91,8 @@ void readDriveValues(ConfigReader& in, EmulatedDriveParameters& p) {
       in.integerOr("motor_encoder_counts", static_cast<int>(p.motor_encoder_counts), {16, 1e8});
   p.rated_current_mA =
       in.integerOr("rated_current_mA", static_cast<int>(p.rated_current_mA), {1, 1e6});
-  p.rated_current_torque_mNm = in.integerOr(
-      "rated_current_torque_mNm", static_cast<int>(p.rated_current_torque_mNm), {1, 1e6});
+  p.rated_current_torque_mNm = in.integerOr("rated_current_torque_mNm",
+                                            static_cast<int>(p.rated_current_torque_mNm), {1, 1e6});
   p.sign = in.numberOr("sign", p.sign, {-1, 1});
   constexpr std::int64_t kMs = 1'000'000;
   p.sdo_delay_ns =

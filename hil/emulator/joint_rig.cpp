@@ -7,6 +7,7 @@
 #include "core/angle.hpp"
 #include "core/digest.hpp"
 #include "core/error.hpp"
+#include "model/pd_law.hpp"
 
 namespace ballbot {
 namespace {
@@ -72,8 +73,7 @@ void JointRig::advance(double dt, const JointVector& command) {
 }
 
 void JointRig::doStep(SimTime now, SimDuration step, const ActuatorCommand& c) {
-  const JointVector wanted = c.torque + c.stiffness.cwiseProduct(c.position - angle_) +
-                             c.damping.cwiseProduct(c.velocity - velocity_);
+  const JointVector wanted = pdTorque(c, angle_, velocity_);
   double t = toSeconds(now);
   const double end = toSeconds(now + step);
   on_the_way_.emplace_back(t + options_.delay_s, wanted);

@@ -15,6 +15,7 @@
 #include "hil/record/fault_page.hpp"
 #include "hil/record/frame_words.hpp"
 #include "hil/record/record_json.hpp"
+#include "hil/record/record_sums.hpp"
 #include "report/json_text.hpp"
 #include "report/write_report.hpp"
 
@@ -151,6 +152,14 @@ WrittenRecord writeRecord(const FaultRecord& record, const std::string& records)
     } catch (const std::exception& e) {
       out.troubles.push_back(fmt::format("{}: {}", path, e.what()));
     }
+  }
+  try {
+    if (const int reason = writeSums(out.folder)) {
+      out.troubles.push_back(
+          fmt::format("{}/{}: {}", out.folder, kRecordSums, std::strerror(reason)));
+    }
+  } catch (const std::exception& e) {
+    out.troubles.push_back(fmt::format("{}/{}: {}", out.folder, kRecordSums, e.what()));
   }
   return out;
 }

@@ -23,10 +23,13 @@ class LockstepRunner final : public BenchRunner {
   void requireGoodEnd() override { inner_.requireGoodEnd(); }
   const Bench& bench() const override { return inner_.bench(); }
   const FlightRecorder& recorder() const override { return inner_.recorder(); }
+  bool hasFault() const noexcept override { return inner_.hasFault(); }
 
  private:
   template <typename Call>
   void whilePumping(Call call);
+  template <typename Call>
+  const BenchSample& whileItGoesDown(Call call);
   void pump();
 
   RealtimeRunner& inner_;

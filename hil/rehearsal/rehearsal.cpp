@@ -133,7 +133,8 @@ void Rehearsal::cycle(const BenchCommand* command) {
   try {
     if (command != nullptr) runner_->command(at_, *command);
     if (realtime_ != nullptr) pump();
-    if (stop_ && realtime_ != nullptr) {  // its answer waits for the way down, which is pumped
+    // Its answer waits for the way down, which is pumped.
+    if (realtime_ != nullptr && (stop_ || realtime_->hasFault())) {
       ended_ = true;
       inTheBackground([this] { runner_->sample(at_ + 1); });
       awaitStop();

@@ -22,8 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-const std::set<std::string> kFiles = {"record.json", "fault.html",  "frames.log",
-                                      "frames.asc",  "decoded.csv", "cycles.csv"};
+const std::set<std::string> kFiles = {"record.json", "fault.html", "frames.log", "frames.asc",
+                                      "decoded.csv", "cycles.csv", "digests.txt"};
 
 class RecordFolder : public ::testing::Test {
  protected:

@@ -1,10 +1,13 @@
 #include "hil/slcan_bus.hpp"
 
 #include <atomic>
+#include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <thread>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -53,6 +56,56 @@ class LiveAdapter {
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
+
+/// A bare end of a pseudo terminal that says heartbeats until it is told C, like an adapter whose
+/// channel a host left open when it died.
+class TalkingAdapter {
+ public:
+  TalkingAdapter() : end_(::posix_openpt(O_RDWR | O_NOCTTY)) {
+    ::grantpt(end_);
+    ::unlockpt(end_);
+    path_ = ::ptsname(end_);
+    ::fcntl(end_, F_SETFL, O_NONBLOCK);
+    thread_ = std::thread([this] { run(); });
+  }
+  ~TalkingAdapter() {
+    stop_ = true;
+    thread_.join();
+    ::close(end_);
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  void run() {
+    bool open = true;
+    while (!stop_) {
+      char c = 0;
+      bool command = false;
+      while (::read(end_, &c, 1) == 1) {
+        if (c == 'C') open = false;
+        command = command || c == 'C' || c == 'S' || c == 'O';
+        if (c == '\r' && command) say("\r");
+        if (c == '\r') command = false;
+      }
+      if (open) say("t70117F\r");
+      std::this_thread::sleep_for(milliseconds(2));
+    }
+  }
+  void say(const char* text) { (void)!::write(end_, text, std::strlen(text)); }
+
+  int end_;
+  std::string path_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+TEST(SlcanBus, OpensAChannelThatADeadHostLeftOpen) {
+  TalkingAdapter adapter;
+  const auto begin = std::chrono::steady_clock::now();
+  const SlcanBus bus(adapter.path(), {1000});
+  EXPECT_TRUE(bus.isUp());
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+}
 
 TEST(SlcanBus, CarriesFramesOfAllKindsThereAndBack) {
   LiveAdapter adapter;

@@ -106,6 +106,11 @@ TEST(BenchPrograms, AFaultOfADriveEndsTheRunWithItsReason) {
   const Finished as_json = runBallbot({"hil", "--show-record", record, "--json"});
   EXPECT_EQ(Json::parse(as_json.out)["first_check"]["subject"], "wheel 2");
   EXPECT_EQ(Json::parse(as_json.out)["exit_code"], 3);
+  std::filesystem::rename(record + "/cycles.csv", record + "/elsewhere");
+  std::ofstream(record + "/decoded.csv", std::ios::app) << "more\n";
+  const Finished in_pieces = runBallbot({"hil", "--show-record", record});
+  EXPECT_EQ(in_pieces.exit_code, 2);
+  EXPECT_THAT(in_pieces.err, HasSubstr("cycles.csv is missing; decoded.csv is not as it was"));
   const Finished none = runBallbot({"hil", "--show-record", folder / "run"});
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_THAT(none.err, HasSubstr("record.json: cannot be read; give the folder of a record"));
@@ -113,6 +118,50 @@ TEST(BenchPrograms, AFaultOfADriveEndsTheRunWithItsReason) {
   const Finished damaged = runBallbot({"hil", "--show-record", record});
   EXPECT_EQ(damaged.exit_code, 2);
   EXPECT_THAT(damaged.err, HasSubstr("not the record of a bench"));
+}
+
+// People press Ctrl-C twice. The second one may not end the way down.
+TEST(BenchPrograms, ASecondCtrlCDoesNotLeaveTorqueOn) {
+  Drives drives;
+  const std::string channel = "HILTWICE" + std::to_string(::getpid());
+  const TemporaryFolder folder;
+  Program hil(drives.with({"hil", kBench, "--channel", channel, "--records", folder / "records"}));
+  Program controller({"controller", kConfigs + "scenarios/bench_balance.yaml", "--channel", channel,
+                      "--out", folder / "run", "--no-report", "--set", "duration_s=60"});
+  for (int i = 0; i < 600 && controller.errSoFar().find("0 %") == std::string::npos; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  for (int i = 0; i < 4; ++i) {
+    hil.signal(SIGINT);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  const Finished bench = hil.finish();
+  EXPECT_EQ(bench.exit_code, 130) << bench.err << bench.out;
+  controller.finish();
+  EXPECT_FALSE(drives.finish()["torque_on"]);
+}
+
+TEST(BenchPrograms, IdentifyDoesNotWriteOverWhatItReads) {
+  const std::string stand = kConfigs + "hil/stand.yaml";
+  const Finished f = runBallbot({"identify", stand, "--drive", "1", "--bench-out", stand});
+  EXPECT_EQ(f.exit_code, 2);
+  EXPECT_THAT(f.err, HasSubstr("--bench-out"));
+  EXPECT_THAT(f.err, HasSubstr("this file is read, and would be lost"));
+  const Finished nowhere =
+      runBallbot({"identify", stand, "--drive", "1", "--figure", "/proc/nowhere/figure.svg"});
+  EXPECT_EQ(nowhere.exit_code, 4) << nowhere.err;
+}
+
+TEST(BenchPrograms, OneThingIsDoneAtATime) {
+  for (const std::vector<std::string>& both :
+       {std::vector<std::string>{"hil", kBench, "--random", "3"},
+        {"hil", "--checks", "--faults"},
+        {"hil", kBench, "--check", "--commission"},
+        {"hil", kBench, "--check", "--keep-serving"},
+        {"hil", kBench, "--rehearse"}}) {
+    const Finished f = runBallbot(both);
+    EXPECT_EQ(f.exit_code, 2) << f.out << f.err;
+  }
 }
 
 // What a full disk does not take is said; the fault's exit code stays.
@@ -163,8 +212,9 @@ TEST(BenchPrograms, CheckFindsSevenNodesAndNamesWhatDiffers) {
 
 TEST(BenchPrograms, DrivesThatMayBeRealAreNotServedBeforeTheyWereCommissioned) {
   const std::string bench = kConfigs + "hil/bench_realtime.yaml";
-  const Drives drives({"--set", "emulator.drive_defaults.product_code=47648", "--set", "drive_defaults.eds=null"},
-                      bench);
+  const Drives drives(
+      {"--set", "emulator.drive_defaults.product_code=47648", "--set", "drive_defaults.eds=null"},
+      bench);
   const std::string channel = "HILTEST" + std::to_string(::getpid());
   const TemporaryFolder folder;
   const auto serve = [&](const std::vector<std::string>& more) {
