@@ -5,19 +5,23 @@
 #include <Eigen/Cholesky>
 
 #include "controller/whole_body_cost.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 
-ArmInverseKinematicsConfig ArmInverseKinematicsConfig::read(ConfigReader& in) {
-  ArmInverseKinematicsConfig c;
-  c.base =
-      in.choiceOr<Base>("base", c.base, {{"task", Base::kTask}, {"estimated", Base::kEstimated}});
-  c.gain = in.numberOr("gain_per_s", c.gain, {kTiny, 100});
-  c.damping = in.numberOr("damping", c.damping, {kTiny, 10});
-  c.rate_limit = in.numberOr("joint_rate_limit_rad_per_s", c.rate_limit, {kTiny, 100});
-  in.finish();
-  return c;
+void ArmInverseKinematicsConfig::describe(ConfigVisitor& v) {
+  v.choice(may("base",
+               "from where the arm reaches: a base at rest where its tasks ask it to be, or "
+               "where it is estimated, for whose motion the arm then makes up"),
+           base, {{"task", Base::kTask}, {"estimated", Base::kEstimated}});
+  v.number(may("gain_per_s", "rate at which an error of the end-effector's pose is worked off"),
+           gain, {kTiny, 100});
+  v.number(may("damping",
+               "damping of the least squares; larger keeps joints slower near singular poses"),
+           damping, {kTiny, 10});
+  v.number(
+      may("joint_rate_limit_rad_per_s", "largest speed of each arm joint; all slow down together"),
+      rate_limit, {kTiny, 100});
 }
 
 Vector3 ArmInverseKinematics::rates(const StateVector& x, const Tasks& tasks) const noexcept {

@@ -4,7 +4,7 @@
 
 namespace ballbot {
 
-class ConfigReader;
+class ConfigVisitor;
 
 struct ArmInverseKinematicsConfig {
   /// The base on which the arm reaches for its place in the world.
@@ -17,12 +17,12 @@ struct ArmInverseKinematicsConfig {
   double damping = 0.1;   ///< share of the mean stiffness added: bounds rates near singular poses
   double rate_limit = 1;  ///< of each joint [rad/s]
 
-  /// Keys, each optional: base (task, estimated), gain_per_s, damping, joint_rate_limit_rad_per_s.
-  static ArmInverseKinematicsConfig read(ConfigReader& in);
+  void describe(ConfigVisitor& v);
 };
 
 /// Differential inverse kinematics of the arm on a base that stands where it stands: joint rates
-/// that lead the end-effector to its reference, by damped least squares with the tasks' own weights,
+/// that lead the end-effector to its reference, by damped least squares with the tasks' own
+/// weights,
 ///
 ///   dq = (J^T W J + lambda 1)^-1 J^T W (v_desired + gain * error),
 ///

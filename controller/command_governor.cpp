@@ -1,6 +1,6 @@
 #include "controller/command_governor.hpp"
 
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 namespace {
@@ -37,20 +37,34 @@ Eigen::Matrix<double, 1, 1> scalar(double value) { return Eigen::Matrix<double, 
 
 }  // namespace
 
-CommandLimits CommandLimits::read(ConfigReader& in) {
-  CommandLimits c;
-  c.step = in.numberOr("step_m", c.step, {kTiny, 1e3});
-  c.lead = in.numberOr("lead_m", c.lead, {kTiny, c.step});
-  c.speed = in.numberOr("speed_m_per_s", c.speed, {kTiny, 100});
-  c.ee_speed = in.numberOr("ee_speed_m_per_s", c.ee_speed, {kTiny, 100});
-  c.angle_step = in.numberOr("angle_step_rad", c.angle_step, {kTiny, 1e3});
-  c.angle_lead = in.numberOr("angle_lead_rad", c.angle_lead, {kTiny, c.angle_step});
-  c.angle_speed = in.numberOr("angle_speed_rad_per_s", c.angle_speed, {kTiny, 100});
-  c.lag = in.numberOr("lag_m", c.lag, {kTiny, 1e3});
-  c.angle_lag = in.numberOr("angle_lag_rad", c.angle_lag, {kTiny, 1e3});
-  c.push = in.numberOr("push_N", c.push, {kTiny, 1e6});
-  in.finish();
-  return c;
+void CommandLimits::describe(ConfigVisitor& v) {
+  v.number(may("step_m",
+               "way of ball or end-effector that is asked for at once; what is farther is "
+               "approached at a bounded speed"),
+           step, {kTiny, 1e3});
+  v.number(may("lead_m", "how far an approached place is ahead of its anchor; at most the step"),
+           lead, v.depending({kTiny, step}));
+  v.number(may("speed_m_per_s", "speed at which the ball's place is approached"), speed,
+           {kTiny, 100});
+  v.number(may("ee_speed_m_per_s", "speed at which the end-effector's place is approached"),
+           ee_speed, {kTiny, 100});
+  v.number(may("angle_step_rad",
+               "turn of heading, end-effector or arm joints that is asked for at once"),
+           angle_step, {kTiny, 1e3});
+  v.number(
+      may("angle_lead_rad", "how far an approached angle is ahead of its anchor; at most the step"),
+      angle_lead, v.depending({kTiny, angle_step}));
+  v.number(may("angle_speed_rad_per_s", "speed at which an angle is approached"), angle_speed,
+           {kTiny, 100});
+  v.number(may("lag_m", "largest distance of an anchor from the robot, for which it waits"), lag,
+           {kTiny, 1e3});
+  v.number(
+      may("angle_lag_rad", "largest angle between an anchor and the robot, for which it waits"),
+      angle_lag, {kTiny, 1e3});
+  v.number(may("push_N",
+               "largest force that the end-effector is asked to push with; what gives way "
+               "to more outruns the robot"),
+           push, {kTiny, 1e6});
 }
 
 CommandGovernor::CommandGovernor(const RobotParameters& robot, const CommandLimits& limits)
@@ -90,12 +104,14 @@ void CommandGovernor::update(SimTime now, const TaskSchedule& schedule, const St
   commands_.arm_position.follow(asked.arm_position, seconds, x.segment<kArmJointCount>(kArm1),
                                 limits_.angle_lag);
   commands_.ee_orientation.follow(asked.R_WE, seconds, tip.R_WE, limits_.angle_lag);
-  cutting_ = (asked.inContact() && asked.contact_force_C.norm() > limits_.push) ||
-             (!asked.ee_position_weight.isZero(0) && commands_.ee_position.cuts(asked.p_WE)) ||
-             (!asked.ball_position_weight.isZero(0) && commands_.ball_position.cuts(asked.ball_position)) ||
-             (!asked.ee_orientation_weight.isZero(0) && commands_.ee_orientation.cuts(asked.R_WE)) ||
-             (asked.yaw_weight != 0 && commands_.yaw.cuts(scalar(asked.yaw))) ||
-             (!asked.arm_position_weight.isZero(0) && commands_.arm_position.cuts(asked.arm_position));
+  cutting_ =
+      (asked.inContact() && asked.contact_force_C.norm() > limits_.push) ||
+      (!asked.ee_position_weight.isZero(0) && commands_.ee_position.cuts(asked.p_WE)) ||
+      (!asked.ball_position_weight.isZero(0) &&
+       commands_.ball_position.cuts(asked.ball_position)) ||
+      (!asked.ee_orientation_weight.isZero(0) && commands_.ee_orientation.cuts(asked.R_WE)) ||
+      (asked.yaw_weight != 0 && commands_.yaw.cuts(scalar(asked.yaw))) ||
+      (!asked.arm_position_weight.isZero(0) && commands_.arm_position.cuts(asked.arm_position));
   started_ = true;
   last_ = now;
 }

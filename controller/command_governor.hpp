@@ -6,10 +6,12 @@
 
 namespace ballbot {
 
+class ConfigVisitor;
+
 /// What of a command is taken at once, and how fast the rest is approached. The defaults leave the
 /// paper's steps alone; a ball that rolls at 0.6 m/s while the base turns leaves the wheels
-/// (12 rad/s: 1.09 m/s without a turn) room to balance. An end-effector moves slower, for a ball that is free to follow it
-/// overtakes it where the arm has to be drawn in.
+/// (12 rad/s: 1.09 m/s without a turn) room to balance. An end-effector moves slower, for a ball
+/// that is free to follow it overtakes it where the arm has to be drawn in.
 struct CommandLimits {
   double step = 0.5;         ///< of ball and end-effector [m]
   double lead = 0.02;        ///< [m]
@@ -22,10 +24,7 @@ struct CommandLimits {
   double angle_lag = 0.8;    ///< ... [rad]
   double push = 15;          ///< of the end-effector [N]; what gives way to more outruns the robot
 
-  /// Keys, each optional: step_m, lead_m, speed_m_per_s, ee_speed_m_per_s, angle_step_rad, angle_lead_rad,
-  /// angle_speed_rad_per_s, lag_m, angle_lag_rad,
-  /// push_N.
-  static CommandLimits read(ConfigReader& in);
+  void describe(ConfigVisitor& v);
 };
 
 /// Keeps commands within what the robot can be asked for at one time, so that no command makes it

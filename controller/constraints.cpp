@@ -1,71 +1,73 @@
 #include "controller/constraints.hpp"
 
 #include "core/angle.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 namespace {
 
-constexpr double kWheelRateShare = 0.7;
-
-void readBarrier(ConfigReader& in, RelaxedBarrier& barrier) {
-  barrier.mu = in.numberOr("mu", barrier.mu, {0, 1e6});
-  barrier.delta = in.numberOr("delta", barrier.delta, {1e-6, 1e6});
+void describeBarrier(ConfigVisitor& v, RelaxedBarrier& barrier) {
+  v.number(may("mu", "weight of the barrier; larger keeps farther away from the limit"), barrier.mu,
+           {0, 1e6});
+  v.number(may("delta",
+               "distance from the limit, in its unit, below which the barrier is a parabola, "
+               "finite even beyond the limit"),
+           barrier.delta, {1e-6, 1e6});
 }
 
 }  // namespace
 
-Constraints::Constraints(const RobotParameters& robot)
-    : wheel_rate_limit(kWheelRateShare * robot.wheel_speed_limit) {
-  torque_limit << Vector3::Constant(robot.wheel_torque_limit),
-      Vector3::Constant(robot.arm_torque_limit);
+Constraints::Constraints(const RobotParameters& robot) {
+  takeShares(robot);
   for (int i = 0; i < kArmJointCount; ++i) {
     arm_lower[i] = robot.arm[i].lower_limit;
     arm_upper[i] = robot.arm[i].upper_limit;
   }
 }
 
-Constraints Constraints::read(ConfigReader& in, const RobotParameters& robot) {
-  Constraints c(robot);
-  if (in.has("torque_limits")) {
-    ConfigReader torque = in.child("torque_limits");
-    readBarrier(torque, c.torque);
-    c.torque_limit *= torque.numberOr("share_of_limit", 1, {0.1, 1});
-    torque.finish();
-  }
-  if (in.has("friction_cone")) {
-    ConfigReader cone = in.child("friction_cone");
-    readBarrier(cone, c.cone);
-    c.friction = cone.numberOr("friction", c.friction, {0.01, 10});
-    c.cone_epsilon = cone.numberOr("epsilon_N", c.cone_epsilon, {1e-3, 1e3});
-    cone.finish();
-  }
-  if (in.has("arm_position_limits")) {
-    ConfigReader arm = in.child("arm_position_limits");
-    readBarrier(arm, c.arm_position);
-    arm.finish();
-  }
-  if (in.has("arm_rate_limits")) {
-    ConfigReader rate = in.child("arm_rate_limits");
-    readBarrier(rate, c.arm_rate);
-    c.arm_rate_limit = rate.numberOr("limit_rad_per_s", c.arm_rate_limit, {0.1, 100});
-    rate.finish();
-  }
-  if (in.has("wheel_rate_limits")) {
-    ConfigReader rate = in.child("wheel_rate_limits");
-    readBarrier(rate, c.wheel_rate);
-    c.wheel_rate_limit =
-        robot.wheel_speed_limit * rate.numberOr("share_of_limit", kWheelRateShare, {0.1, 1});
-    rate.finish();
-  }
-  if (in.has("tilt_limit")) {
-    ConfigReader tilt = in.child("tilt_limit");
-    readBarrier(tilt, c.tilt);
-    c.tilt_limit = kRadPerDeg * tilt.numberOr("limit_deg", c.tilt_limit / kRadPerDeg, {1, 80});
-    tilt.finish();
-  }
-  in.finish();
-  return c;
+void Constraints::takeShares(const RobotParameters& robot) {
+  torque_limit << Vector3::Constant(robot.wheel_torque_limit),
+      Vector3::Constant(robot.arm_torque_limit);
+  torque_limit *= torque_share;
+  wheel_rate_limit = wheel_rate_share * robot.wheel_speed_limit;
+}
+
+void Constraints::describe(ConfigVisitor& v) {
+  v.section(may("torque_limits", "barrier at the largest torque of each joint"),
+            [&](ConfigVisitor& in) {
+              describeBarrier(in, torque);
+              in.number(may("share_of_limit", "share of the drive's torque that a plan may use"),
+                        torque_share, {0.1, 1});
+            });
+  v.section(may("friction_cone", "barrier at the force across the contact at which it would slide"),
+            [&](ConfigVisitor& in) {
+              describeBarrier(in, cone);
+              in.number(
+                  may("friction", "largest force across the contact per force along its normal"),
+                  friction, {0.01, 10});
+              in.number(may("epsilon_N", "force over which the tip of the cone is rounded"),
+                        cone_epsilon, {1e-3, 1e3});
+            });
+  v.section(may("arm_position_limits", "barrier at the stops of the arm's joints"),
+            [&](ConfigVisitor& in) { describeBarrier(in, arm_position); });
+  v.section(may("arm_rate_limits", "barrier at the largest speed of the arm's joints"),
+            [&](ConfigVisitor& in) {
+              describeBarrier(in, arm_rate);
+              in.number(may("limit_rad_per_s", "largest speed of an arm joint"), arm_rate_limit,
+                        {0.1, 100});
+            });
+  v.section(may("wheel_rate_limits",
+                "barrier at the largest speed of the wheels, above which they cannot brake a fall"),
+            [&](ConfigVisitor& in) {
+              describeBarrier(in, wheel_rate);
+              in.number(may("share_of_limit", "share of the drive's speed that a plan may use"),
+                        wheel_rate_share, {0.1, 1});
+            });
+  v.section(may("tilt_limit", "barrier at the largest tilt of the base"), [&](ConfigVisitor& in) {
+    describeBarrier(in, tilt);
+    in.number(may("limit_deg", "largest angle of the base from the vertical"), tilt_limit, {1, 80},
+              kRadPerDeg);
+  });
 }
 
 }  // namespace ballbot

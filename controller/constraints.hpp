@@ -5,11 +5,12 @@
 
 namespace ballbot {
 
-class ConfigReader;
+class ConfigVisitor;
 
 /// Inequalities the plan should keep, each as a relaxed barrier in the cost: torque limits and
 /// friction cone as in the paper, and the limits of the arm and of the tilt.
 struct Constraints {
+  double torque_share = 1;                         ///< of the drives' torque that may be used
   JointVector torque_limit = JointVector::Zero();  ///< [N m]
   RelaxedBarrier torque{0.05, 0.2};
 
@@ -25,8 +26,10 @@ struct Constraints {
   double arm_rate_limit = 6;  ///< [rad/s]
   RelaxedBarrier arm_rate{0.02, 0.5};
 
-  /// Of the wheels relative to the base; less than the drives give, whose torque is gone there [rad/s].
-  double wheel_rate_limit;
+  /// Of the wheels relative to the base; less than the drives give, whose torque is gone there
+  /// [rad/s].
+  double wheel_rate_limit = 0;
+  double wheel_rate_share = 0.7;  ///< of the drives' speed, which the limit is
   RelaxedBarrier wheel_rate{0.2, 0.2};
 
   double tilt_limit = 0.45;  ///< of the base from vertical [rad]
@@ -34,9 +37,9 @@ struct Constraints {
 
   explicit Constraints(const RobotParameters& robot);
 
-  /// Keys, each optional: torque_limits, friction_cone, arm_position_limits, arm_rate_limits,
-  /// wheel_rate_limits, tilt_limit; each with mu, delta, and what belongs to it.
-  static Constraints read(ConfigReader& in, const RobotParameters& robot);
+  void describe(ConfigVisitor& v);
+  /// Sets the limits that are shares of the robot's; to be called again after a share was read.
+  void takeShares(const RobotParameters& robot);
 };
 
 }  // namespace ballbot

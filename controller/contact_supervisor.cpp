@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 namespace {
@@ -11,16 +11,33 @@ constexpr double kNoForce_N = 0.05;  // asked for: as good as none
 
 }  // namespace
 
+void ContactSupervision::describe(ConfigVisitor& v) {
+  v.number(may("found_at_N", "measured normal force from which on something is touched"),
+           found_at_N, {0.1, 1e3});
+  v.duration(
+      may("found_after_ms", "how long it must be measured before the contact counts as found"),
+      found_after, {0, 1e5});
+  v.number(may("approach_force_N", "largest force asked for before something is touched"),
+           approach_force_N, {0.1, 1e3});
+  v.duration(
+      may("approach_limit_s", "how long an approach may last before the contact is given up"),
+      approach_limit, {0.1, 1e3});
+  v.number(may("lost_share",
+               "share of the force asked for; while less is measured, the contact is in doubt"),
+           lost_share, {0, 1});
+  v.duration(may("lost_after_ms",
+                 "how long the contact may be in doubt before it is lost and nothing is pushed"),
+             lost_after, {1, 1e5});
+  v.number(may("integral_gain_per_s",
+               "rate at which the force's error is added to what is asked for; 0 adds nothing"),
+           integral_gain, {0, 10});
+  v.number(may("integral_limit_N", "largest force that the integral adds"), integral_limit_N,
+           {0, 1e3});
+}
+
 ContactSupervision ContactSupervision::read(ConfigReader& in) {
   ContactSupervision o;
-  o.found_at_N = in.numberOr("found_at_N", o.found_at_N, {0.1, 1e3});
-  o.found_after = in.durationOr("found_after_ms", o.found_after, {0, 1e5});
-  o.approach_force_N = in.numberOr("approach_force_N", o.approach_force_N, {0.1, 1e3});
-  o.approach_limit = in.durationOr("approach_limit_s", o.approach_limit, {0.1, 1e3});
-  o.lost_share = in.numberOr("lost_share", o.lost_share, {0, 1});
-  o.lost_after = in.durationOr("lost_after_ms", o.lost_after, {1, 1e5});
-  o.integral_gain = in.numberOr("integral_gain_per_s", o.integral_gain, {0, 10});
-  o.integral_limit_N = in.numberOr("integral_limit_N", o.integral_limit_N, {0, 1e3});
+  readDescribed(in, o);
   in.finish();
   return o;
 }
@@ -51,8 +68,9 @@ void ContactSupervisor::update(SimTime now, double asked, double measured) noexc
       }
       break;
     case ContactState::kContact:
-      integral_N_ = std::clamp(integral_N_ + options_.integral_gain * since_last * (asked - measured),
-                               -options_.integral_limit_N, options_.integral_limit_N);
+      integral_N_ =
+          std::clamp(integral_N_ + options_.integral_gain * since_last * (asked - measured),
+                     -options_.integral_limit_N, options_.integral_limit_N);
       if (measured >= options_.lost_share * asked) doubt_ = now;
       if (now - doubt_ >= options_.lost_after) enter(ContactState::kLost, now);
       break;

@@ -7,24 +7,26 @@
 namespace ballbot {
 
 class ConfigReader;
+class ConfigVisitor;
 
 enum class ContactState : std::int8_t {
   kNone,      ///< no force is asked for
   kApproach,  ///< asked for, nothing touched yet
   kContact,
-  kLost       ///< slipped off or never found; nothing is pushed until no force is asked for
+  kLost  ///< slipped off or never found; nothing is pushed until no force is asked for
 };
 
 struct ContactSupervision {
-  double found_at_N = 1;         ///< measured for `found_after`: there is something to push against
+  double found_at_N = 1;  ///< measured for `found_after`: there is something to push against
   SimDuration found_after = std::chrono::milliseconds(100);
-  double approach_force_N = 2;   ///< largest asked for before something is touched
+  double approach_force_N = 2;  ///< largest asked for before something is touched
   SimDuration approach_limit = std::chrono::seconds(4);
-  double lost_share = 0.3;       ///< of the force asked for
+  double lost_share = 0.3;  ///< of the force asked for
   SimDuration lost_after = std::chrono::milliseconds(300);
-  double integral_gain = 0;      ///< of the force error [1/s]
+  double integral_gain = 0;  ///< of the force error [1/s]
   double integral_limit_N = 2;
 
+  void describe(ConfigVisitor& v);
   /// @throw InputError for bad keys or values.
   static ContactSupervision read(ConfigReader& in);
 };

@@ -1,7 +1,7 @@
 #include "controller/decoupled_law.hpp"
 
 #include "controller/rigid_arm.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 namespace {
@@ -26,26 +26,27 @@ MpcConfig baseOnly(MpcConfig c) {
 
 }  // namespace
 
-ArmPidConfig ArmPidConfig::read(ConfigReader& in) {
-  ArmPidConfig c;
-  c.stiffness = in.numberOr("stiffness_Nm_per_rad", c.stiffness, {0, 1e4});
-  c.damping = in.numberOr("damping_Nms_per_rad", c.damping, {0, 1e3});
-  c.integral = in.numberOr("integral_Nm_per_rad_s", c.integral, {0, 1e4});
-  c.integral_limit = in.numberOr("integral_limit_Nm", c.integral_limit, {0, 1e3});
-  in.finish();
-  return c;
+void ArmPidConfig::describe(ConfigVisitor& v) {
+  v.number(may("stiffness_Nm_per_rad", "pull of each arm joint towards its angle"), stiffness,
+           {0, 1e4});
+  v.number(may("damping_Nms_per_rad", "pull of each arm joint towards its speed"), damping,
+           {0, 1e3});
+  v.number(may("integral_Nm_per_rad_s", "rate at which an error that stays adds torque"), integral,
+           {0, 1e4});
+  v.number(may("integral_limit_Nm", "largest torque that the integral adds"), integral_limit,
+           {0, 1e3});
+}
+
+void DecoupledConfig::describe(ConfigVisitor& v) {
+  v.section(may("inverse_kinematics", "how the arm follows the end-effector's reference"),
+            [&](ConfigVisitor& in) { inverse_kinematics.describe(in); });
+  v.section(may("pid", "gains of the arm's joints, about the torque that holds the arm still"),
+            [&](ConfigVisitor& in) { pid.describe(in); });
 }
 
 DecoupledConfig DecoupledConfig::read(ConfigReader& in) {
   DecoupledConfig c;
-  if (in.has("inverse_kinematics")) {
-    ConfigReader kinematics = in.child("inverse_kinematics");
-    c.inverse_kinematics = ArmInverseKinematicsConfig::read(kinematics);
-  }
-  if (in.has("pid")) {
-    ConfigReader pid = in.child("pid");
-    c.pid = ArmPidConfig::read(pid);
-  }
+  readDescribed(in, c);
   in.finish();
   return c;
 }

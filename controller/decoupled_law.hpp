@@ -5,22 +5,22 @@
 
 namespace ballbot {
 
+class ConfigReader;
+
 struct ArmPidConfig {
   double stiffness = 80;       ///< [N m/rad]
   double damping = 6;          ///< [N m s/rad]
   double integral = 80;        ///< [N m/(rad s)]
   double integral_limit = 10;  ///< of the integral's torque [N m]
 
-  /// Keys, each optional: stiffness_Nm_per_rad, damping_Nms_per_rad, integral_Nm_per_rad_s,
-  /// integral_limit_Nm.
-  static ArmPidConfig read(ConfigReader& in);
+  void describe(ConfigVisitor& v);
 };
 
 struct DecoupledConfig {
   ArmInverseKinematicsConfig inverse_kinematics;
   ArmPidConfig pid;
 
-  /// Keys, each optional: inverse_kinematics, pid.
+  void describe(ConfigVisitor& v);
   static DecoupledConfig read(ConfigReader& in);
 };
 
@@ -39,7 +39,8 @@ class DecoupledLaw final : public ControlLaw {
   /// @throw NumericalError as MpcLaw.
   DecoupledLaw(const RobotParameters& robot, const MpcConfig& mpc, const DecoupledConfig& config);
 
-  PlanReport plan(SimTime now, const StateVector& x, const JointVector& joint_angle) noexcept override;
+  PlanReport plan(SimTime now, const StateVector& x,
+                  const JointVector& joint_angle) noexcept override;
   void activatePlan() noexcept override;
   void sample(SimTime now, PolicySample& out) const noexcept override;
   void commanded(SimTime now, SimDuration period, const JointVector& torque) noexcept override;
@@ -62,7 +63,8 @@ class DecoupledLaw final : public ControlLaw {
 
   ArmInverseKinematicsConfig::Base ik_base_;
   ReducedDynamics dynamics_;
-  StateVector rest_;  ///< of the robot with its arm in the nominal pose, which is all the base knows
+  /// Of the robot with its arm in the nominal pose, which is all the base knows.
+  StateVector rest_;
   std::shared_ptr<const TaskSchedule> schedule_;
   ArmInverseKinematics inverse_kinematics_;
   ArmPidConfig pid_;

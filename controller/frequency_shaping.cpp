@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/angle.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "core/error.hpp"
 
 namespace ballbot {
@@ -22,23 +22,37 @@ FrequencyShaping FrequencyShaping::forBandwidth(double bandwidth_Hz) {
   return out;
 }
 
+void FrequencyShaping::describe(ConfigVisitor& v) {
+  bool enabled = true, matched = false;
+  v.boolean(may("enabled", "whether fast torques of the wheels cost more than slow ones"), enabled);
+  v.other(may("actuator_bandwidth_Hz",
+              "sets zero and pole, in place of the two, to suit drives whose torque is down 3 dB "
+              "there"),
+          "number, 0.1 to 10000", [&](ConfigReader& in) {
+            if (in.has("zero_rad_per_s") || in.has("pole_rad_per_s")) {
+              throw InputError(
+                  fmt::format("{} stands beside zero_rad_per_s or pole_rad_per_s, must be the "
+                              "one or the other",
+                              in.at("actuator_bandwidth_Hz")));
+            }
+            *this = forBandwidth(in.number("actuator_bandwidth_Hz", {0.1, 1e4}));
+            matched = true;
+          });
+  if (!matched) {
+    v.number(may("zero_rad_per_s", "frequency from which on a wheel's torque costs more"), zero,
+             {0.1, 1e5});
+    v.number(may("pole_rad_per_s",
+                 "frequency beyond which that weight grows no further; at least the zero, "
+                 "and the farther above it the more fast torques cost"),
+             pole, v.depending({zero, 1e5}));
+  }
+  if (!enabled) pole = zero;
+}
+
 FrequencyShaping FrequencyShaping::read(ConfigReader& in) {
   FrequencyShaping out;
-  const bool enabled = in.booleanOr("enabled", true);
-  if (in.has("actuator_bandwidth_Hz")) {
-    if (in.has("zero_rad_per_s") || in.has("pole_rad_per_s")) {
-      throw InputError(
-          fmt::format("{} stands beside zero_rad_per_s or pole_rad_per_s, must be the "
-                      "one or the other",
-                      in.at("actuator_bandwidth_Hz")));
-    }
-    out = forBandwidth(in.number("actuator_bandwidth_Hz", {0.1, 1e4}));
-  } else {
-    out.zero = in.numberOr("zero_rad_per_s", out.zero, {0.1, 1e5});
-    out.pole = in.numberOr("pole_rad_per_s", out.pole, {out.zero, 1e5});
-  }
+  readDescribed(in, out);
   in.finish();
-  if (!enabled) out.pole = out.zero;
   return out;
 }
 

@@ -5,10 +5,11 @@
 namespace ballbot {
 
 class ConfigReader;
+class ConfigVisitor;
 
-/// Frequency-dependent weight on the wheel torques (Minniti et al. 2019, section III-C). The cost is
-/// taken of r(s) u instead of u, with a lead r = (1 + s/zero) / (1 + s/pole): unchanged weight for
-/// slow torques, (pole/zero)^2 times the weight for those the drives cannot follow. One filter
+/// Frequency-dependent weight on the wheel torques (Minniti et al. 2019, section III-C). The cost
+/// is taken of r(s) u instead of u, with a lead r = (1 + s/zero) / (1 + s/pole): unchanged weight
+/// for slow torques, (pole/zero)^2 times the weight for those the drives cannot follow. One filter
 /// state per wheel, the low-passed torque x_f with dx_f/dt = pole (u - x_f), turns that into a
 /// plain quadratic cost of (x_f, u):  r u = rho u - (rho - 1) x_f,  rho = pole / zero.
 struct FrequencyShaping {
@@ -16,7 +17,7 @@ struct FrequencyShaping {
   double pole = 200;  ///< [rad/s]; pole = zero is no shaping
 
   double rho() const { return pole / zero; }
-  std::complex<double> filter(double omega) const;     ///< r(j omega)
+  std::complex<double> filter(double omega) const;  ///< r(j omega)
   double weightRatio(double omega) const { return std::norm(filter(omega)); }
 
   /// Matched to actuators whose torque is down 3 dB at `bandwidth_Hz`: the weight grows from
@@ -24,6 +25,7 @@ struct FrequencyShaping {
   static FrequencyShaping forBandwidth(double bandwidth_Hz);
 
   /// Either zero_rad_per_s and pole_rad_per_s, or actuator_bandwidth_Hz, or enabled: false.
+  void describe(ConfigVisitor& v);
   static FrequencyShaping read(ConfigReader& in);
 };
 

@@ -4,13 +4,15 @@
 
 #include <fmt/format.h>
 
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "core/error.hpp"
 
 namespace ballbot {
 namespace {
 
-void demandWhole(ConfigReader& in, const char* key, double length, double step) {
+constexpr double kSecondsPerMs = 1e-3;
+
+void demandWhole(const ConfigReader& in, const char* key, double length, double step) {
   const double steps = length / step;
   if (std::abs(steps - std::round(steps)) > 1e-6) {
     throw InputError(fmt::format("{} leaves {:.6g} steps of {:.6g} ms, must be a whole number",
@@ -29,16 +31,21 @@ std::vector<double> Horizon::knots() const {
   return out;
 }
 
-Horizon Horizon::read(ConfigReader& in) {
-  Horizon h;
-  h.length = in.numberOr("length_s", h.length, {0.1, 10});
-  h.coarse_step = 1e-3 * in.numberOr("step_ms", 1e3 * h.coarse_step, {1, 200});
-  h.fine_length = in.numberOr("fine_length_s", h.fine_length, {0, h.length});
-  h.fine_step = 1e-3 * in.numberOr("fine_step_ms", 1e3 * h.fine_step, {1, 200});
-  demandWhole(in, "fine_length_s", h.fine_length, h.fine_step);
-  demandWhole(in, "length_s", h.length - h.fine_length, h.coarse_step);
-  in.finish();
-  return h;
+void Horizon::describe(ConfigVisitor& v) {
+  v.number(may("length_s", "how far a plan looks ahead"), length, {0.1, 10});
+  v.number(may("step_ms", "from knot to knot of the plan, after its fine part"), coarse_step,
+           {1, 200}, kSecondsPerMs);
+  v.number(may("fine_length_s",
+               "part at the beginning that has finer steps, a whole multiple of them; at most all "
+               "of it"),
+           fine_length, v.depending({0, length}));
+  v.number(may("fine_step_ms", "from knot to knot in the fine part"), fine_step, {1, 200},
+           kSecondsPerMs);
+}
+
+void Horizon::requireWholeSteps(const ConfigReader& in) const {
+  demandWhole(in, "fine_length_s", fine_length, fine_step);
+  demandWhole(in, "length_s", length - fine_length, coarse_step);
 }
 
 }  // namespace ballbot

@@ -5,6 +5,7 @@
 namespace ballbot {
 
 class ConfigReader;
+class ConfigVisitor;
 
 /// Knots of the horizon, in seconds from its start: fine steps first, then coarse ones, because
 /// what is far away will be planned again.
@@ -16,9 +17,11 @@ struct Horizon {
 
   std::vector<double> knots() const;
 
-  /// Keys: length_s, step_ms, and optionally fine_length_s with fine_step_ms. Lengths must be whole
-  /// multiples of their steps.
-  static Horizon read(ConfigReader& in);
+  void describe(ConfigVisitor& v);
+  /// Lengths must be whole multiples of their steps.
+  /// @param in  where they were read, for the error's words
+  /// @throw InputError
+  void requireWholeSteps(const ConfigReader& in) const;
 };
 
 }  // namespace ballbot

@@ -8,6 +8,7 @@
 namespace ballbot {
 
 class ConfigReader;
+class ConfigVisitor;
 
 /// Makes the balancing law that `kind` names, from the mapping of the same name beside it:
 ///
@@ -18,5 +19,10 @@ class ConfigReader;
 /// kinds are passed over, so that one file can hold several laws to choose from.
 /// @throw InputError for what cannot be read or cannot be balanced.
 std::unique_ptr<ControlLaw> makeControlLaw(ConfigReader& in, const RobotParameters& robot);
+
+/// Tells of the whole `controller:` section, of every law and of what others read from it: its
+/// keys, and what they mean where the file says nothing.
+/// @throw NumericalError if the robot's nominal pose has no equilibrium.
+void describeController(ConfigVisitor& v, const RobotParameters& robot);
 
 }  // namespace ballbot

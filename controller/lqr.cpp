@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "controller/riccati_equation.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "model/dynamics_constants.hpp"
 
 namespace ballbot {
@@ -40,19 +40,22 @@ JointVector LqrWeights::torqueWeight() const {
   return diagonal;
 }
 
-LqrWeights LqrWeights::read(ConfigReader& in) {
-  LqrWeights w;
-  w.ball_position = in.numberOr("ball_position", w.ball_position, {kTiny, 1e6});
-  w.yaw = in.numberOr("yaw", w.yaw, {kTiny, 1e6});
-  w.tilt = in.numberOr("tilt", w.tilt, {0, 1e6});
-  w.arm_position = in.numberOr("arm_position", w.arm_position, {kTiny, 1e6});
-  w.ball_velocity = in.numberOr("ball_velocity", w.ball_velocity, {0, 1e6});
-  w.base_rate = in.numberOr("base_rate", w.base_rate, {0, 1e6});
-  w.arm_rate = in.numberOr("arm_rate", w.arm_rate, {0, 1e6});
-  w.wheel_torque = in.numberOr("wheel_torque", w.wheel_torque, {kTiny, 1e6});
-  w.arm_torque = in.numberOr("arm_torque", w.arm_torque, {kTiny, 1e6});
-  in.finish();
-  return w;
+void LqrWeights::describe(ConfigVisitor& v) {
+  v.number(may("ball_position",
+               "weight of the ball's distance from its place; larger brings it back harder"),
+           ball_position, {kTiny, 1e6});
+  v.number(may("yaw", "weight of the error of the heading"), yaw, {kTiny, 1e6});
+  v.number(may("tilt", "weight of the base's pitch and roll"), tilt, {0, 1e6});
+  v.number(may("arm_position", "weight of each arm joint's distance from its angle"), arm_position,
+           {kTiny, 1e6});
+  v.number(may("ball_velocity", "weight of the ball's velocity; larger damps its way back"),
+           ball_velocity, {0, 1e6});
+  v.number(may("base_rate", "weight of the base's angular velocity"), base_rate, {0, 1e6});
+  v.number(may("arm_rate", "weight of each arm joint's velocity"), arm_rate, {0, 1e6});
+  v.number(may("wheel_torque", "weight of each wheel's torque; larger makes the loop slower"),
+           wheel_torque, {kTiny, 1e6});
+  v.number(may("arm_torque", "weight of each arm joint's torque; larger makes the arm softer"),
+           arm_torque, {kTiny, 1e6});
 }
 
 LqrSolution designLqr(const ReducedDynamics& dynamics, const Vector3& arm,

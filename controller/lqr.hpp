@@ -5,7 +5,7 @@
 
 namespace ballbot {
 
-class ConfigReader;
+class ConfigVisitor;
 
 /// Quadratic weights of the balancing law, L = 1/2 (dx^T Q dx + dtau^T R dtau), one number per kind
 /// of coordinate: Q and R are diagonal. Wheels and arm have weights of their own because their
@@ -24,8 +24,7 @@ struct LqrWeights {
   StateJacobian stateWeight() const;                           ///< Q
   Eigen::Matrix<double, kJointCount, 1> torqueWeight() const;  ///< diagonal of R
 
-  /// @throw InputError as ConfigReader; torque weights must be more than 0.
-  static LqrWeights read(ConfigReader& in);
+  void describe(ConfigVisitor& v);
 };
 
 /// Infinite-horizon optimal state feedback about an equilibrium: tau = tau_eq + K (x - x_eq), and

@@ -4,7 +4,7 @@
 
 #include "controller/policy_sample_blob.hpp"
 #include "controller/reference_limits.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 namespace {
@@ -14,20 +14,30 @@ constexpr std::uint32_t kBlobVersion = 1;
 
 }  // namespace
 
-LqrLawConfig LqrLawConfig::read(ConfigReader& in, const RobotParameters& robot) {
+LqrLawConfig LqrLawConfig::defaults(const RobotParameters& robot) {
   LqrLawConfig c;
   c.set_point.arm = robot.nominal_arm;
-  if (in.has("set_point")) {
-    ConfigReader set_point = in.child("set_point");
-    c.set_point = SetPoint::read(set_point, robot);
-  }
-  if (in.has("weights")) {
-    ConfigReader weights = in.child("weights");
-    c.weights = LqrWeights::read(weights);
-  }
-  c.position_error_limit =
-      in.numberOr("position_error_limit_m", c.position_error_limit, {kTiny, 100});
-  c.yaw_error_limit = in.numberOr("yaw_error_limit_rad", c.yaw_error_limit, {kTiny, 100});
+  return c;
+}
+
+void LqrLawConfig::describe(ConfigVisitor& v) {
+  v.section(may("set_point", "where the robot should stand"),
+            [&](ConfigVisitor& in) { set_point.describe(in); });
+  v.section(
+      may("weights", "weights of the cost that the law minimises, quadratic in errors and torques"),
+      [&](ConfigVisitor& in) { weights.describe(in); });
+  v.number(
+      may("position_error_limit_m",
+          "distance from the set point beyond which the law sees no more: the robot cruises there"),
+      position_error_limit, {kTiny, 100});
+  v.number(may("yaw_error_limit_rad", "error of the heading beyond which the law sees no more"),
+           yaw_error_limit, {kTiny, 100});
+}
+
+LqrLawConfig LqrLawConfig::read(ConfigReader& in, const RobotParameters& robot) {
+  LqrLawConfig c = defaults(robot);
+  readDescribed(in, c);
+  if (in.has("set_point")) c.set_point.requireWithinLimits(in.child("set_point"), robot);
   in.finish();
   JointVector torque_limit;
   torque_limit << Vector3::Constant(robot.wheel_torque_limit),
@@ -89,9 +99,7 @@ void LqrLaw::sampleOf(const Plan& plan, SimTime now, PolicySample& out) noexcept
   out.joint_position += toSeconds(now - plan.stamp) * out.joint_velocity;
 }
 
-void LqrLaw::sample(SimTime now, PolicySample& out) const noexcept {
-  sampleOf(active_, now, out);
-}
+void LqrLaw::sample(SimTime now, PolicySample& out) const noexcept { sampleOf(active_, now, out); }
 
 StateBlob LqrLaw::saveState() const {
   BlobWriter out;

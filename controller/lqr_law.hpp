@@ -6,6 +6,8 @@
 
 namespace ballbot {
 
+class ConfigReader;
+
 struct LqrLawConfig {
   SetPoint set_point;
   LqrWeights weights;
@@ -13,7 +15,10 @@ struct LqrLawConfig {
   double position_error_limit = 0.5;  ///< [m]
   double yaw_error_limit = 0.8;       ///< [rad]
 
-  /// Keys: set_point, weights, position_error_limit_m, yaw_error_limit_rad; all optional.
+  /// With the arm in the robot's nominal pose.
+  static LqrLawConfig defaults(const RobotParameters& robot);
+  void describe(ConfigVisitor& v);
+  /// @throw InputError as ConfigReader, or for an arm pose that the robot cannot hold.
   static LqrLawConfig read(ConfigReader& in, const RobotParameters& robot);
 };
 

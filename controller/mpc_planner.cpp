@@ -5,7 +5,7 @@
 #include "controller/continuous_engine.hpp"
 #include "controller/discrete_engine.hpp"
 #include "controller/reference_limits.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "core/error.hpp"
 
 namespace ballbot {
@@ -27,6 +27,17 @@ std::unique_ptr<MpcEngine> makeEngineOf(const RobotParameters& robot, const MpcC
                                               c.horizon.knots(), c.schedule, options);
 }
 
+/// A plan whose torques cost nothing is no problem with a solution. Asked before all is read, for
+/// what is merely missing would be named without this reason.
+void requireTorqueTasks(ConfigReader& in) {
+  if (!in.has("tasks")) return;  // the reader says so
+  const ConfigReader tasks = in.child("tasks");
+  for (const char* key : {"wheel_torque", "arm_torque"}) {
+    if (tasks.has(key)) continue;
+    throw InputError(fmt::format("{} is missing: a torque must cost something", tasks.at(key)));
+  }
+}
+
 /// A contact task is in vain where the plan has no such inputs.
 void requireInputsFor(ConfigReader& tasks, const char* task, const char* inputs, bool given) {
   if (tasks.has(task) && !given) {
@@ -36,11 +47,16 @@ void requireInputsFor(ConfigReader& tasks, const char* task, const char* inputs,
 
 PlanStatus planStatus(SlqStatus status) {
   switch (status) {
-    case SlqStatus::kImproved: return PlanStatus::kImproved;
-    case SlqStatus::kConverged: return PlanStatus::kConverged;
-    case SlqStatus::kNoDescent: return PlanStatus::kNoDescent;
-    case SlqStatus::kNotFinite: return PlanStatus::kNotFinite;
-    case SlqStatus::kNotConvex: return PlanStatus::kNotConvex;
+    case SlqStatus::kImproved:
+      return PlanStatus::kImproved;
+    case SlqStatus::kConverged:
+      return PlanStatus::kConverged;
+    case SlqStatus::kNoDescent:
+      return PlanStatus::kNoDescent;
+    case SlqStatus::kNotFinite:
+      return PlanStatus::kNotFinite;
+    case SlqStatus::kNotConvex:
+      return PlanStatus::kNotConvex;
   }
   return PlanStatus::kNotFinite;
 }
@@ -48,63 +64,79 @@ PlanStatus planStatus(SlqStatus status) {
 }  // namespace
 
 MpcConfig::MpcConfig(const RobotParameters& robot)
-    : constraints(robot), schedule(std::make_shared<TaskSchedule>(robot)) {
-  lqr.set_point.arm = robot.nominal_arm;
+    : constraints(robot),
+      schedule(std::make_shared<TaskSchedule>(robot)),
+      lqr(LqrLawConfig::defaults(robot)) {}
+
+void MpcConfig::describe(ConfigVisitor& v) {
+  v.choice(may("engine",
+               "how plans are solved: in fixed steps, or in continuous time as in the paper, "
+               "which is slower and checks the other"),
+           engine, {{"discrete", Engine::kDiscrete}, {"continuous", Engine::kContinuous}});
+  v.section(may("horizon", "how far plans look ahead, and in which steps"),
+            [&](ConfigVisitor& in) { horizon.describe(in); });
+  v.integer(may("iterations", "steps of the solver for each plan; more come closer to the optimum"),
+            iterations, {1, 1000});
+  v.integer(may("first_iterations", "steps of the solver for a plan that starts from the LQR"),
+            first_iterations, {1, 1000});
+  v.integer(may("threads", "of the solver; results are the same with one and two"), threads,
+            {1, 2});
+  v.boolean(may("solver_thread",
+                "whether plans are solved beside the control loop: for real time, and "
+                "not repeatable"),
+            solver_thread);
+  v.boolean(may("contact_forces", "whether a plan may push with the end-effector"), contact_forces);
+  v.boolean(may("contact_moments", "whether it may twist as well; needs contact_forces"),
+            contact_moments);
+  v.section(may("contact_supervision",
+                "what plans may count on at the end-effector, by the force "
+                "that is measured"),
+            [&](ConfigVisitor& in) { contact_supervision.describe(in); });
+  v.section(may("command_limits", "what plans take at once of commands that are far away"),
+            [&](ConfigVisitor& in) { command_limits.describe(in); });
+  v.duration(
+      may("fallback_after_ms",
+          "how long plans may fail before the LQR takes over; at most the length of the horizon"),
+      fallback_after, {1, 1e6});
+  v.section(may("continuous", "settings of the continuous engine"), [&](ConfigVisitor& in) {
+    in.number(may("relative_tolerance",
+                  "error that its integrators allow in each step; smaller is slower"),
+              continuous.tolerance, {1e-10, 1e-2});
+  });
+  v.section(
+      may("wheel_shaping", "weight on those torques of the wheels that their drives cannot follow"),
+      [&](ConfigVisitor& in) { shaping.describe(in); });
+  v.section(may("constraints", "limits that plans keep, each as a barrier in the cost"),
+            [&](ConfigVisitor& in) { constraints.describe(in); });
+  v.section(may("terminal", "what comes after the horizon, as a cost of its end"),
+            [&](ConfigVisitor& in) { terminal.describe(in); });
+  v.section(must("tasks",
+                 "what the robot is asked for: the cost is half the sum of weight times "
+                 "squared error"),
+            [&](ConfigVisitor& in) {
+              auto described = std::make_shared<TaskSchedule>(*schedule);
+              described->describe(in);
+              schedule = std::move(described);
+            });
 }
 
 MpcConfig MpcConfig::read(ConfigReader& in, const RobotParameters& robot) {
   MpcConfig c(robot);
-  c.engine = in.choiceOr<Engine>("engine", c.engine, {{"discrete", Engine::kDiscrete},
-                                                    {"continuous", Engine::kContinuous}});
-  if (in.has("horizon")) {
-    ConfigReader horizon = in.child("horizon");
-    c.horizon = Horizon::read(horizon);
-  }
-  c.iterations = in.integerOr("iterations", c.iterations, {1, 1000});
-  c.first_iterations = in.integerOr("first_iterations", c.first_iterations, {1, 1000});
-  c.threads = in.integerOr("threads", c.threads, {1, 2});
-  c.solver_thread = in.booleanOr("solver_thread", c.solver_thread);
-  c.contact_forces = in.booleanOr("contact_forces", c.contact_forces);
-  c.contact_moments = in.booleanOr("contact_moments", c.contact_moments);
+  requireTorqueTasks(in);
+  readDescribed(in, c);
+  c.constraints.takeShares(robot);
+  if (in.has("horizon")) c.horizon.requireWholeSteps(in.child("horizon"));
   if (c.contact_moments && !c.contact_forces) {
-    throw InputError(fmt::format("{} is true, needs contact_forces: true beside it",
-                                 in.at("contact_moments")));
+    throw InputError(
+        fmt::format("{} is true, needs contact_forces: true beside it", in.at("contact_moments")));
   }
-  if (in.has("contact_supervision")) {
-    ConfigReader supervision = in.child("contact_supervision");
-    c.contact_supervision = ContactSupervision::read(supervision);
-  }
-  if (in.has("command_limits")) {
-    ConfigReader limits = in.child("command_limits");
-    c.command_limits = CommandLimits::read(limits);
-  }
-  c.fallback_after = in.durationOr("fallback_after_ms", c.fallback_after, {1, 1e6});
   if (toSeconds(c.fallback_after) > c.horizon.length) {
-    throw InputError(fmt::format("{} is {:g}, which is beyond the end of a plan: at most {:g}, the "
-                                 "length of the horizon",
-                                 in.at("fallback_after_ms"), 1e3 * toSeconds(c.fallback_after),
-                                 1e3 * c.horizon.length));
-  }
-  if (in.has("continuous")) {
-    ConfigReader continuous = in.child("continuous");
-    c.continuous.tolerance =
-        continuous.numberOr("relative_tolerance", c.continuous.tolerance, {1e-10, 1e-2});
-    continuous.finish();
-  }
-  if (in.has("wheel_shaping")) {
-    ConfigReader shaping = in.child("wheel_shaping");
-    c.shaping = FrequencyShaping::read(shaping);
-  }
-  if (in.has("constraints")) {
-    ConfigReader constraints = in.child("constraints");
-    c.constraints = Constraints::read(constraints, robot);
-  }
-  if (in.has("terminal")) {
-    ConfigReader terminal = in.child("terminal");
-    c.terminal = TerminalCost::read(terminal);
+    throw InputError(fmt::format(
+        "{} is {:g}, which is beyond the end of a plan: at most {:g}, the "
+        "length of the horizon",
+        in.at("fallback_after_ms"), 1e3 * toSeconds(c.fallback_after), 1e3 * c.horizon.length));
   }
   ConfigReader tasks = in.child("tasks");
-  c.schedule = std::make_shared<TaskSchedule>(TaskSchedule::read(tasks, robot));
   requireInputsFor(tasks, "contact_force", "contact_forces", c.contact_forces);
   requireInputsFor(tasks, "contact_moment", "contact_moments", c.contact_moments);
   requireWithinLimits(*c.schedule, c.constraints, robot, tasks);

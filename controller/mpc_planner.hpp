@@ -18,10 +18,10 @@ struct MpcConfig {
   enum class Engine { kDiscrete, kContinuous };
   Engine engine = Engine::kDiscrete;
   Horizon horizon;
-  int iterations = 1;        ///< per plan
-  int first_iterations = 10; ///< of a plan that starts from the LQR
-  int threads = 1;            ///< the solver's; results are the same with 1 and 2
-  bool solver_thread = false; ///< solve beside the control loop: for real time, not repeatable
+  int iterations = 1;            ///< per plan
+  int first_iterations = 10;     ///< of a plan that starts from the LQR
+  int threads = 1;               ///< the solver's; results are the same with 1 and 2
+  bool solver_thread = false;    ///< solve beside the control loop: for real time, not repeatable
   bool contact_forces = false;   ///< the plan has end-effector forces as inputs
   bool contact_moments = false;  ///< and moments
   ContactSupervision contact_supervision;
@@ -32,11 +32,13 @@ struct MpcConfig {
   TerminalCost terminal;
   ContinuousOptions continuous;
   std::shared_ptr<const TaskSchedule> schedule;
-  LqrLawConfig lqr;  ///< seeds the first plan, takes over when plans fail; weighs terminal.kind: lqr
+  /// Seeds the first plan, takes over when plans fail; weighs terminal.kind: lqr.
+  LqrLawConfig lqr;
   PhaseClock clock = nullptr;
 
   explicit MpcConfig(const RobotParameters& robot);
 
+  void describe(ConfigVisitor& v);
   /// Reads the `mpc` mapping. `lqr`, a mapping beside it, is read by whoever calls.
   static MpcConfig read(ConfigReader& in, const RobotParameters& robot);
 };

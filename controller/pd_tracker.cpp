@@ -1,7 +1,7 @@
 #include "controller/pd_tracker.hpp"
 
 #include "controller/reference_limits.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 namespace {
@@ -12,22 +12,58 @@ JointVector wheelsAndArm(double wheels, double arm) {
   return out;
 }
 
+/// A key for all wheels and one for all joints of the arm.
+void describePair(ConfigVisitor& v, const ConfigKey& wheel_key, const ConfigKey& arm_key,
+                  JointVector& values, Range wheel_range, Range arm_range) {
+  double wheels = values[0], arm = values[kWheelCount];
+  v.number(wheel_key, wheels, wheel_range);
+  v.number(arm_key, arm, arm_range);
+  values = wheelsAndArm(wheels, arm);
+}
+
 }  // namespace
 
-TrackerConfig TrackerConfig::read(ConfigReader& in, const RobotParameters& robot) {
+TrackerConfig TrackerConfig::defaults(const RobotParameters& robot) {
   TrackerConfig c;
-  c.pd_loop =
-      in.choiceOr<PdLoop>("pd_loop", PdLoop::kController,
-                          {{"controller", PdLoop::kController}, {"drives", PdLoop::kDrives}});
-  c.stiffness = wheelsAndArm(in.numberOr("wheel_stiffness_Nm_per_rad", 0.2, {0, 1000}),
-                             in.numberOr("arm_stiffness_Nm_per_rad", 8, {0, 1000}));
-  c.damping = wheelsAndArm(in.numberOr("wheel_damping_Nms_per_rad", 0.02, {0, 100}),
-                           in.numberOr("arm_damping_Nms_per_rad", 0.6, {0, 100}));
-  c.torque_limit = wheelsAndArm(
-      in.numberOr("wheel_torque_limit_Nm", robot.wheel_torque_limit,
-                  {kTiny, robot.wheel_torque_limit}),
-      in.numberOr("arm_torque_limit_Nm", robot.arm_torque_limit, {kTiny, robot.arm_torque_limit}));
-  c.policy_feedback = in.numberOr("policy_feedback", c.policy_feedback, {0, 1});
+  c.stiffness = wheelsAndArm(0.2, 8);
+  c.damping = wheelsAndArm(0.02, 0.6);
+  c.torque_limit = c.drive_torque = wheelsAndArm(robot.wheel_torque_limit, robot.arm_torque_limit);
+  return c;
+}
+
+void TrackerConfig::describe(ConfigVisitor& v) {
+  v.choice(may("pd_loop",
+               "who closes the loop on the joints: the tracker, or the drives, which are "
+               "faster than the bus"),
+           pd_loop, {{"controller", PdLoop::kController}, {"drives", PdLoop::kDrives}});
+  describePair(v,
+               may("wheel_stiffness_Nm_per_rad",
+                   "pull of each wheel towards the angle that the plan has for it"),
+               may("arm_stiffness_Nm_per_rad",
+                   "pull of each arm joint towards the angle that the plan has for it"),
+               stiffness, {0, 1000}, {0, 1000});
+  describePair(v,
+               may("wheel_damping_Nms_per_rad",
+                   "pull of each wheel towards the speed that the plan has for it"),
+               may("arm_damping_Nms_per_rad",
+                   "pull of each arm joint towards the speed that the plan has for it"),
+               damping, {0, 100}, {0, 100});
+  describePair(
+      v,
+      may("wheel_torque_limit_Nm",
+          "largest torque commanded to a wheel; by default and at most what its drive gives"),
+      may("arm_torque_limit_Nm",
+          "largest torque commanded to an arm joint; by default and at most what its drive gives"),
+      torque_limit, v.depending({kTiny, drive_torque[0]}),
+      v.depending({kTiny, drive_torque[kWheelCount]}));
+  v.number(may("policy_feedback",
+               "share of the plan's own feedback that is used; with 0 only its feedforward is"),
+           policy_feedback, {0, 1});
+}
+
+TrackerConfig TrackerConfig::read(ConfigReader& in, const RobotParameters& robot) {
+  TrackerConfig c = defaults(robot);
+  readDescribed(in, c);
   in.finish();
   requireStaticTorque(robot, robot.nominal_arm, c.torque_limit, in.at("arm_torque_limit_Nm"));
   return c;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "controller/control_law.hpp"
 #include "model/robot_parameters.hpp"
 #include "model/signals.hpp"
@@ -7,6 +9,7 @@
 namespace ballbot {
 
 class ConfigReader;
+class ConfigVisitor;
 
 struct TrackerConfig {
   /// Who closes the PD loop on the joints.
@@ -18,11 +21,14 @@ struct TrackerConfig {
   JointVector stiffness = JointVector::Zero();     ///< K_P [N m/rad]
   JointVector damping = JointVector::Zero();       ///< K_D [N m s/rad]
   JointVector torque_limit = JointVector::Zero();  ///< of the command [N m]
-  double policy_feedback = 1;                      ///< share of the policy's K (x - x_ref) used
+  /// What the drives give, and so the most that `torque_limit` may be [N m].
+  JointVector drive_torque = JointVector::Constant(std::numeric_limits<double>::infinity());
+  double policy_feedback = 1;  ///< share of the policy's K (x - x_ref) used
 
-  /// Keys: pd_loop, wheel_stiffness_Nm_per_rad, wheel_damping_Nms_per_rad, arm_..., and
-  /// wheel_torque_limit_Nm, arm_torque_limit_Nm (default: the robot's, which they may not exceed),
-  /// policy_feedback.
+  /// What a file that says nothing means: some stiffness, and the drives' whole torque.
+  static TrackerConfig defaults(const RobotParameters& robot);
+  void describe(ConfigVisitor& v);
+  /// @throw InputError as ConfigReader, or where a limit is below what standing still takes.
   static TrackerConfig read(ConfigReader& in, const RobotParameters& robot);
 };
 

@@ -7,6 +7,7 @@
 namespace ballbot {
 
 class ConfigReader;
+class ConfigVisitor;
 
 /// Where the robot should stand.
 struct SetPoint {
@@ -14,9 +15,11 @@ struct SetPoint {
   double yaw = 0;                                           ///< continuous, may exceed a turn [rad]
   Vector3 arm = Vector3::Zero();                            ///< joint angles [rad]
 
-  /// Keys: ball_position_m, yaw_rad, arm_rad (default: the robot's nominal arm pose, and within
-  /// its joint limits).
-  static SetPoint read(ConfigReader& in, const RobotParameters& robot);
+  void describe(ConfigVisitor& v);
+  /// The arm within its joints' limits.
+  /// @param in  where it was read, for the error's words
+  /// @throw InputError
+  void requireWithinLimits(const ConfigReader& in, const RobotParameters& robot) const;
 };
 
 }  // namespace ballbot

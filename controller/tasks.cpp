@@ -6,33 +6,23 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "core/error.hpp"
 #include "model/frames.hpp"
 
 namespace ballbot {
 namespace {
 
-/// A task of the file: weight, and a reference where there can be one.
+/// A task: weight, and a reference where there can be one.
 template <int N>
-void readTask(ConfigReader& in, const char* key, TimedWeight<N>& weight,
-              TimeSignal<N>* reference = nullptr, double least_weight = 0) {
-  if (!in.has(key)) return;
-  ConfigReader task = in.child(key);
-  weight = TimedWeight<N>::read(task, least_weight);
-  if (reference && task.has("reference")) {
-    ConfigReader signal = task.child("reference");
-    *reference = TimeSignal<N>::read(signal, reference->value(-kInf));
-  }
-  task.finish();
-}
-
-/// Of a joint's torque: without a weight, at any time, the problem has no solution.
-void readTorqueTask(ConfigReader& in, const char* key, TimedWeight<1>& weight) {
-  if (!in.has(key)) {
-    throw InputError(fmt::format("{} is missing: a torque must cost something", in.at(key)));
-  }
-  readTask<1>(in, key, weight, nullptr, kTiny);
+void describeTask(ConfigVisitor& v, const ConfigKey& key, TimedWeight<N>& weight,
+                  TimeSignal<N>* reference = nullptr, double least_weight = 0) {
+  v.section(key, [&](ConfigVisitor& task) {
+    weight.describe(task, least_weight);
+    if (!reference) return;
+    task.section(may("reference", "what is asked for over time"),
+                 [&](ConfigVisitor& signal) { reference->describe(signal); });
+  });
 }
 
 /// Angular velocity in W of R = Rz(yaw) Ry(pitch) Rx(roll) at given angle rates.
@@ -54,43 +44,65 @@ TaskSchedule::TaskSchedule(const RobotParameters& robot) {
   arm_position = TimeSignal<3>(robot.nominal_arm);
 }
 
-TaskSchedule TaskSchedule::read(ConfigReader& in, const RobotParameters& robot) {
-  TaskSchedule s(robot);
-  readTask(in, "ee_position", s.ee_position_weight, &s.ee_position);
-  readTask(in, "ee_orientation", s.ee_orientation_weight, &s.ee_orientation);
-  readTask(in, "ee_velocity", s.ee_velocity_weight);
-  readTask(in, "ee_rate", s.ee_rate_weight);
-  readTask(in, "ball_position", s.ball_position_weight, &s.ball_position);
-  readTask(in, "yaw", s.yaw_weight, &s.yaw);
-  readTask(in, "ball_velocity", s.ball_velocity_weight);
-  readTask(in, "base_rate", s.base_rate_weight);
-  readTask(in, "arm_position", s.arm_position_weight, &s.arm_position);
-  readTask(in, "arm_rate", s.arm_rate_weight);
-  readTorqueTask(in, "wheel_torque", s.wheel_torque_weight);
-  readTorqueTask(in, "arm_torque", s.arm_torque_weight);
-  readTask(in, "contact_force", s.contact_force_weight, &s.contact_force);
-  readTask(in, "contact_moment", s.contact_moment_weight, &s.contact_moment);
-  if (in.has("contact_turn")) {
-    ConfigReader turn = in.child("contact_turn");
-    s.contact_turn = TimeSignal<1>::read(turn, s.contact_turn.value(-kInf));
-  }
-  if (in.has("contact_hinge_m")) {
-    const auto hinge = in.numbers<2>("contact_hinge_m", {-1e3, 1e3});
-    s.contact_hinge = Eigen::Vector2d(hinge[0], hinge[1]);
-  }
-  if (in.has("contact_normal")) {
-    const auto n = in.numbers<3>("contact_normal", {-1, 1});
-    s.contact_normal_W << n[0], n[1], n[2];
-    const double horizontal = s.contact_normal_W.head<2>().norm();
-    if (horizontal < 0.1) {
-      throw InputError(fmt::format("{} is ({}, {}, {}), must have a horizontal part",
-                                   in.at("contact_normal"), n[0], n[1], n[2]));
-    }
-    s.contact_normal_W.normalize();
-  }
-  s.preview = in.booleanOr("preview", s.preview);
-  in.finish();
-  return s;
+void TaskSchedule::describe(ConfigVisitor& v) {
+  describeTask(v, may("ee_position", "place of the end-effector in the world, x, y and z"),
+               ee_position_weight, &ee_position);
+  describeTask(v,
+               may("ee_orientation",
+                   "orientation of the end-effector; the error is the sine of half "
+                   "the angle about the world's axes, the reference yaw, pitch, roll"),
+               ee_orientation_weight, &ee_orientation);
+  describeTask(v, may("ee_velocity", "velocity of the end-effector, against its reference's"),
+               ee_velocity_weight);
+  describeTask(v, may("ee_rate", "angular velocity of the end-effector, against its reference's"),
+               ee_rate_weight);
+  describeTask(v, may("ball_position", "place of the ball in the plane, x and y in the world"),
+               ball_position_weight, &ball_position);
+  describeTask(v, may("yaw", "heading of the base"), yaw_weight, &yaw);
+  describeTask(v, may("ball_velocity", "velocity of the ball, against its reference's"),
+               ball_velocity_weight);
+  describeTask(v, may("base_rate", "angular velocity of the base about its own axes, against none"),
+               base_rate_weight);
+  describeTask(v, may("arm_position", "angles of the arm's joints"), arm_position_weight,
+               &arm_position);
+  describeTask(v, may("arm_rate", "speeds of the arm's joints, against none"), arm_rate_weight);
+  describeTask<1>(
+      v, must("wheel_torque", "torques of the wheels, as shaped; they must cost something"),
+      wheel_torque_weight, nullptr, kTiny);
+  describeTask<1>(v, must("arm_torque", "torques of the arm's joints; they must cost something"),
+                  arm_torque_weight, nullptr, kTiny);
+  describeTask(v,
+               may("contact_force",
+                   "force of the environment on the end-effector in the contact "
+                   "frame, the normal last; without a weight there is no contact"),
+               contact_force_weight, &contact_force);
+  describeTask(
+      v,
+      may("contact_moment", "moment of the environment on the end-effector in the contact frame"),
+      contact_moment_weight, &contact_moment);
+  v.section(may("contact_turn", "angle of the contact frame about the vertical over time"),
+            [&](ConfigVisitor& turn) { contact_turn.describe(turn); });
+  v.other(may("contact_hinge_m",
+              "place in the plane of a door's hinge: the contact frame turns with it"),
+          "list of 2 numbers, -1000 to 1000", [&](ConfigReader& in) {
+            const auto hinge = in.numbers<2>("contact_hinge_m", {-1e3, 1e3});
+            contact_hinge = Eigen::Vector2d(hinge[0], hinge[1]);
+          });
+  v.other(may("contact_normal",
+              "normal of the touched surface, pointing to the robot, before any turn; with a "
+              "horizontal part, of any length, by default [-1, 0, 0]"),
+          "list of 3 numbers, -1 to 1", [&](ConfigReader& in) {
+            const auto n = in.numbers<3>("contact_normal", {-1, 1});
+            contact_normal_W << n[0], n[1], n[2];
+            const double horizontal = contact_normal_W.head<2>().norm();
+            if (horizontal < 0.1) {
+              throw InputError(fmt::format("{} is ({}, {}, {}), must have a horizontal part",
+                                           in.at("contact_normal"), n[0], n[1], n[2]));
+            }
+            contact_normal_W.normalize();
+          });
+  v.boolean(may("preview", "whether plans see steps and switched weights before they come"),
+            preview);
 }
 
 void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& contact,

@@ -9,7 +9,7 @@
 
 namespace ballbot {
 
-class ConfigReader;
+class ConfigVisitor;
 
 /// What the robot is asked for at one instant: weights of the cost rate
 ///
@@ -24,11 +24,11 @@ struct Tasks {
   Vector3 ee_velocity_weight = Vector3::Zero();     ///< in W [s^2/m^2]
   Vector3 ee_rate_weight = Vector3::Zero();         ///< angular, in W [s^2/rad^2]
   Eigen::Vector2d ball_position_weight = Eigen::Vector2d::Zero();  ///< in W [1/m^2]
-  double yaw_weight = 0;                            ///< [1/rad^2]
+  double yaw_weight = 0;                                           ///< [1/rad^2]
   Eigen::Vector2d ball_velocity_weight = Eigen::Vector2d::Zero();  ///< in W [s^2/m^2]
-  Vector3 base_rate_weight = Vector3::Zero();       ///< of w_WB_B [s^2/rad^2]
-  Vector3 arm_position_weight = Vector3::Zero();    ///< [1/rad^2]
-  Vector3 arm_rate_weight = Vector3::Zero();        ///< [s^2/rad^2]
+  Vector3 base_rate_weight = Vector3::Zero();                      ///< of w_WB_B [s^2/rad^2]
+  Vector3 arm_position_weight = Vector3::Zero();                   ///< [1/rad^2]
+  Vector3 arm_rate_weight = Vector3::Zero();                       ///< [s^2/rad^2]
   double wheel_torque_weight = 0;                   ///< of the shaped torque [1/(N m)^2]
   double arm_torque_weight = 0;                     ///< [1/(N m)^2]
   Vector3 contact_force_weight = Vector3::Zero();   ///< in C [1/N^2]; all zero: no contact
@@ -44,7 +44,7 @@ struct Tasks {
   Vector3 arm_position = Vector3::Zero();
   Vector3 contact_force_C = Vector3::Zero();   ///< on the end-effector [N]
   Vector3 contact_moment_C = Vector3::Zero();  ///< on the end-effector, at E [N m]
-  Matrix3 R_WC = Matrix3::Identity();         ///< contact frame, z_C: normal pointing to the robot
+  Matrix3 R_WC = Matrix3::Identity();          ///< contact frame, z_C: normal pointing to the robot
 
   /// The plan may push on the environment.
   bool inContact() const { return !contact_force_weight.isZero(0); }
@@ -67,11 +67,8 @@ class TaskSchedule {
   /// @param robot  its equilibrium at the nominal arm pose gives the initial references
   explicit TaskSchedule(const RobotParameters& robot);
 
-  /// Keys, each optional, as in docs/theory/mpc.md: ee_position, ee_orientation, ee_velocity,
-  /// ee_rate, ball_position, yaw, ball_velocity, base_rate, arm_position, arm_rate, wheel_torque,
-  /// arm_torque, contact_force, contact_moment, contact_normal, contact_turn, contact_hinge_m,
-  /// preview.
-  static TaskSchedule read(ConfigReader& in, const RobotParameters& robot);
+  /// As in docs/theory/mpc.md.
+  void describe(ConfigVisitor& v);
 
   /// Tasks at time t [s] as known at `now` <= t, see TimeSignal::value. Free of allocation.
   /// @param commands  what a plan that starts at `now` takes of them

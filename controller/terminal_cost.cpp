@@ -2,18 +2,18 @@
 
 #include <Eigen/Geometry>
 
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 
-TerminalCost TerminalCost::read(ConfigReader& in) {
-  TerminalCost c;
-  c.kind = in.choiceOr<Kind>("kind", c.kind,
-                             {{"scaled_state", Kind::kScaledState}, {"lqr", Kind::kLqr}});
-  c.state_scale = in.numberOr("state_scale_s", c.state_scale, {0, 1e3});
-  c.lqr_scale = in.numberOr("lqr_scale", c.lqr_scale, {0, 1e3});
-  in.finish();
-  return c;
+void TerminalCost::describe(ConfigVisitor& v) {
+  v.choice(may("kind",
+               "what the end of the horizon costs: its state's cost rate once more, or the "
+               "value of balancing on by the LQR"),
+           kind, {{"scaled_state", Kind::kScaledState}, {"lqr", Kind::kLqr}});
+  v.number(may("state_scale_s", "time for which the last state's cost rate counts once more"),
+           state_scale, {0, 1e3});
+  v.number(may("lqr_scale", "factor on the LQR's value"), lqr_scale, {0, 1e3});
 }
 
 LqrTerminalCost::LqrTerminalCost(const RobotParameters& robot, const TerminalCost& terminal)

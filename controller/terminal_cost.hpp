@@ -9,7 +9,7 @@
 
 namespace ballbot {
 
-class ConfigReader;
+class ConfigVisitor;
 
 /// What happens after the horizon, as a cost of its last state.
 struct TerminalCost {
@@ -22,8 +22,7 @@ struct TerminalCost {
   double lqr_scale = 1;
   LqrWeights lqr_weights;  ///< of the LQR, from its own section
 
-  /// Keys, each optional: kind (scaled_state | lqr), state_scale_s, lqr_scale.
-  static TerminalCost read(ConfigReader& in);
+  void describe(ConfigVisitor& v);
   double stateScale() const { return kind == Kind::kScaledState ? state_scale : 0; }
 };
 

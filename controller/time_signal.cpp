@@ -2,17 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/angle.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "core/error.hpp"
 
 namespace ballbot {
 namespace {
 
 constexpr double kLongest_s = 1e6;
+
+/// What readVector() reads.
+template <int N>
+constexpr const char* vectorKind() {
+  return N == 1   ? "number, or a list of one"
+         : N == 2 ? "number for both components, or a list of 2"
+                  : "number for all components, or a list of 3";
+}
 
 }  // namespace
 
@@ -80,26 +89,51 @@ void TimeSignal<N>::circle(double at, double radius, double period, double turns
 }
 
 template <int N>
-TimeSignal<N> TimeSignal<N>::read(ConfigReader& in, const Vector& initial) {
-  TimeSignal out(in.has("initial") ? readVector<N>(in, "initial", -1e6, 1e6) : initial);
-  for (ConfigReader& move : in.list("moves")) {
-    const double at = move.number("at_s", {0, kLongest_s});
-    if (move.has("circle_radius_m")) {
-      if (N < 2) {
-        throw InputError(fmt::format("{} needs two components, this reference has {}",
-                                     move.at("circle_radius_m"), N));
-      }
-      const double radius = move.number("circle_radius_m", {kTiny, 100});
-      const double period = move.number("period_s", {0.1, kLongest_s});
-      out.circle(at, radius, period, move.numberOr("turns", 1, {kTiny, 1e6}));
-    } else {
-      const Vector by = readVector<N>(move, "by", -1e6, 1e6);
-      out.ramp(at, move.numberOr("over_s", 0, {0, kLongest_s}), by);
-    }
-    move.finish();
+void TimeSignal<N>::describe(ConfigVisitor& v) {
+  v.other(
+      may("initial", "value before any move; by default that of the robot at rest at the origin"),
+      vectorKind<N>(),
+      [&](ConfigReader& in) { initial_ = readVector<N>(in, "initial", -1e6, 1e6); });
+  v.list(may("moves", "steps, ramps and circles; they add up and may overlap"),
+         [&](ConfigVisitor& move) { describeMove(move); });
+}
+
+template <int N>
+void TimeSignal<N>::describeMove(ConfigVisitor& v) {
+  double at = -1, over = 0, radius = 0, period = 0, turns = 1;
+  std::optional<Vector> by;
+  v.number(must("at_s", "time at which the move begins"), at, {0, kLongest_s});
+  const bool was_read = at >= 0;
+  // What belongs to the one kind of move is needed by it and unknown to the other. Where nothing
+  // was read both are told, and neither is needed; but no circle where there is no plane for it.
+  const bool tell_circle = N >= 2 || was_read;
+  if (tell_circle) {
+    v.other(may("circle_radius_m",
+                "makes the move a circle in the first two components, leaving in the direction of "
+                "the second; this is its radius"),
+            "number, above 0, at most 100", [&](ConfigReader& in) {
+              if (N < 2) {
+                throw InputError(fmt::format("{} needs two components, this reference has {}",
+                                             in.at("circle_radius_m"), N));
+              }
+              radius = in.number("circle_radius_m", {kTiny, 100});
+            });
   }
-  in.finish();
-  return out;
+  const bool is_circle = radius > 0;
+  if (!is_circle) {
+    v.other({"by", "how far a step or a ramp goes; needed unless the move is a circle", was_read},
+            vectorKind<N>(), [&](ConfigReader& in) { by = readVector<N>(in, "by", -1e6, 1e6); });
+    v.number(may("over_s", "time that a ramp takes; 0 makes it a step"), over, {0, kLongest_s});
+  }
+  if (tell_circle && !by) {
+    v.other({"period_s", "time that one turn of a circle takes; needed by a circle", is_circle},
+            "number, 0.1 to 1000000", [&](ConfigReader& in) {
+              period = in.number("period_s", {0.1, kLongest_s});
+            });
+    v.number(may("turns", "how often a circle is gone round"), turns, {kTiny, 1e6});
+  }
+  if (is_circle) circle(at, radius, period, turns);
+  if (by) ramp(at, over, *by);
 }
 
 template <int N>
@@ -125,20 +159,30 @@ void TimedWeight<N>::change(double at, const Vector& weight) {
 }
 
 template <int N>
-TimedWeight<N> TimedWeight<N>::read(ConfigReader& in, double least) {
-  TimedWeight out(readVector<N>(in, "weight", least, 1e9));
+void TimedWeight<N>::describe(ConfigVisitor& v, double least) {
+  const char* const words =
+      least > 0 ? "weight of the square in the plan's cost, above 0; larger keeps it smaller"
+                : "weight of the squared error in the plan's cost; larger holds it closer, 0 "
+                  "leaves it free";
+  v.other(must("weight", words), vectorKind<N>(),
+          [&](ConfigReader& in) { *this = TimedWeight(readVector<N>(in, "weight", least, 1e9)); });
   double last = -kInf;
-  for (ConfigReader& change : in.list("weight_changes")) {
-    const double at = change.number("at_s", {0, kLongest_s});
-    if (at <= last) {
-      throw InputError(fmt::format("{} is {}, must be later than the change before it, at {} s",
-                                   change.at("at_s"), at, last));
-    }
-    last = at;
-    out.change(at, readVector<N>(change, "weight", least, 1e9));
-    change.finish();
-  }
-  return out;
+  v.list(
+      may("weight_changes", "weights that hold from a time on, in order of time"),
+      [&](ConfigVisitor& change_in) {
+        double at = 0;
+        change_in.number(must("at_s", "time from which on the weight holds"), at, {0, kLongest_s});
+        change_in.other(
+            must("weight", "weight from that time on"), vectorKind<N>(), [&](ConfigReader& in) {
+              if (at <= last) {
+                throw InputError(
+                    fmt::format("{} is {}, must be later than the change before it, at {} s",
+                                in.at("at_s"), at, last));
+              }
+              last = at;
+              change(at, readVector<N>(in, "weight", least, 1e9));
+            });
+      });
 }
 
 #define BALLBOT_INSTANTIATE(N)   \

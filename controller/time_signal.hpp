@@ -7,6 +7,7 @@
 namespace ballbot {
 
 class ConfigReader;
+class ConfigVisitor;
 
 /// A vector over time, from where it starts and the moves made since: steps, ramps and circles.
 /// Moves add up, so they may overlap.
@@ -32,8 +33,8 @@ class TimeSignal {
   std::vector<Step> steps() const;
   /// Whether it ever changes.
   bool moves() const { return !moves_.empty(); }
-  /// Times at which it may be at an extreme: its start, begin and end of each move, and 64 points on
-  /// the first turn of a circle [s].
+  /// Times at which it may be at an extreme: its start, begin and end of each move, and 64 points
+  /// on the first turn of a circle [s].
   std::vector<double> turningTimes() const;
 
   void step(double at, const Vector& by) { moves_.push_back({at, 0, by, 0, 0}); }
@@ -42,11 +43,12 @@ class TimeSignal {
   /// the second component's direction. Needs N >= 2.
   void circle(double at, double radius, double period, double turns);
 
-  /// Keys: initial (default as given), moves: a list of
-  ///   {at_s, by: [...], over_s: 0}   or   {at_s, circle_radius_m, period_s, turns}.
-  static TimeSignal read(ConfigReader& in, const Vector& initial);
+  /// What is read adds its moves to those that are there.
+  void describe(ConfigVisitor& v);
 
  private:
+  void describeMove(ConfigVisitor& v);
+
   struct Move {
     double at, over;  ///< start and length [s]
     Vector by;
@@ -66,15 +68,16 @@ class TimedWeight {
  public:
   using Vector = Eigen::Matrix<double, N, 1>;
 
-  explicit TimedWeight(const Vector& from_start = Vector::Zero()) : changes_{{-1e300, from_start}} {}
+  explicit TimedWeight(const Vector& from_start = Vector::Zero())
+      : changes_{{-1e300, from_start}} {}
   const Vector& value(double t) const { return value(t, t); }
   /// As known at `now` <= t: changes are commands, as steps of a reference are.
   const Vector& value(double t, double now) const;
   void change(double at, const Vector& weight);
 
-  /// Keys: weight, and weight_changes: a list of {at_s, weight} in order of time.
+  /// Of the mapping that has it: its weight, and the changes in order of time.
   /// @param least  of any weight at any time
-  static TimedWeight read(ConfigReader& in, double least = 0);
+  void describe(ConfigVisitor& v, double least = 0);
 
  private:
   struct Change {

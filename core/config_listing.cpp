@@ -64,7 +64,7 @@ KeyEntry& ConfigListing::add(const ConfigKey& key, KeyKind kind, std::string fal
   entry.kind = kind;
   entry.required = key.required;
   entry.unit = unitOfKey(key.name);
-  if (!key.required) entry.fallback = std::move(fallback);
+  entry.fallback = std::move(fallback);
   entry.words = key.words;
   entries_.push_back(std::move(entry));
   return entries_.back();

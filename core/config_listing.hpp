@@ -25,10 +25,11 @@ struct KeyEntry {
   std::string path;  ///< dotted; `.0.` stands for any item of a list
   KeyKind kind = KeyKind::kNumber;
   bool required = false;
-  std::string unit;                  ///< by the key's name; empty where it has none
-  Range range;                       ///< of numbers
-  std::size_t count = 1;             ///< of kNumbers
-  std::string fallback;              ///< as YAML; empty where there is none
+  std::string unit;       ///< by the key's name; empty where it has none
+  Range range;            ///< of numbers
+  std::size_t count = 1;  ///< of kNumbers
+  std::string fallback;  ///< as YAML; empty where there is none. Of a required key: what the struct
+                         ///< begins with
   std::vector<std::string> choices;  ///< of kChoice
   std::string other;                 ///< of kOther: what it is
   std::string words;
@@ -45,6 +46,7 @@ class ConfigListing final : public ConfigVisitor {
 
   std::vector<KeyEntry> take() { return std::move(entries_); }
 
+  Range depending(Range) const override { return {}; }
   void number(const ConfigKey& key, double& value, Range range, double scale) override;
   void integer(const ConfigKey& key, int& value, Range range) override;
   void boolean(const ConfigKey& key, bool& value) override;

@@ -53,6 +53,9 @@ class ConfigVisitor {
   virtual void other(const ConfigKey& key, const char* kind,
                      const std::function<void(ConfigReader&)>& read) = 0;
 
+  /// A range that another value decides: a reader holds to it, a list does not know it.
+  virtual Range depending(Range range) const { return range; }
+
   template <typename Vector>
   void vector(const ConfigKey& key, Vector& value, Range range = {}, double scale = 1) {
     numbers(key, value.data(), static_cast<std::size_t>(value.size()), range, scale);

@@ -1,6 +1,6 @@
 #include "cosim/recorder.hpp"
 
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "messages/convert.hpp"
 
 namespace ballbot {
@@ -24,13 +24,14 @@ std::int32_t shortHash(std::uint64_t hash) {
 
 }  // namespace
 
-void RecorderOptions::read(ConfigReader& in) {
+void RecorderOptions::describe(ConfigVisitor& v) {
   const Range any{-1, kInf};
-  sensors = in.durationOr("sensors_period_ms", sensors, any);
-  truth = in.durationOr("truth_period_ms", truth, any);
-  estimate = in.durationOr("estimate_period_ms", estimate, any);
-  plan = in.durationOr("plan_period_ms", plan, any);
-  command = in.durationOr("command_period_ms", command, any);
+  v.duration(may("sensors_period_ms", "from one recorded sensor frame to the next; 0 all, -1 none"),
+             sensors, any);
+  v.duration(may("truth_period_ms", "of the plant's true state; 0 all, -1 none"), truth, any);
+  v.duration(may("estimate_period_ms", "of the state estimate; 0 all, -1 none"), estimate, any);
+  v.duration(may("plan_period_ms", "of what each plan reports; 0 all, -1 none"), plan, any);
+  v.duration(may("command_period_ms", "of the drives' commands; 0 all, -1 none"), command, any);
 }
 
 Recorder::Recorder(RecorderOptions options) : options_(std::move(options)) {

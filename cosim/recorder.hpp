@@ -18,7 +18,7 @@
 
 namespace ballbot {
 
-class ConfigReader;
+class ConfigVisitor;
 
 /// What goes into the log, how often. A message is logged at the first event at or after each
 /// multiple of its channel's period; period zero logs every one, a negative period none.
@@ -31,9 +31,8 @@ struct RecorderOptions {
   SimDuration plan{0};
   SimDuration command{2'500'000};
 
-  /// Reads the optional keys sensors_period_ms, truth_period_ms, estimate_period_ms,
-  /// plan_period_ms, command_period_ms; `log_path` stays.
-  void read(ConfigReader& in);
+  /// All but `log_path`.
+  void describe(ConfigVisitor& v);
 };
 
 /// Writes the log of a run and computes its trajectory digest. The digest covers every message of

@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "core/config_visitor.hpp"
 #include "model/frames.hpp"
 
 namespace ballbot {
@@ -32,6 +33,19 @@ StateVector wholeBodyState(const FilterState& x, SimTime time, const JointHistor
 }
 
 }  // namespace
+
+void BalanceSettings::describe(ConfigVisitor& v) {
+  v.boolean(may("enabled", "whether the way the robot falls corrects the tilt"), enabled);
+  v.number(may("momentum_kg_m2_per_s",
+               "how well the change of angular momentum over a window is measured"),
+           momentum_sigma, {1e-4, 100});
+  v.number(may("moment_Nm", "what the model does not know of gravity's moment about the contact"),
+           moment_sigma, {1e-3, 100});
+  v.number(may("window_s", "length of a window over which the change is taken"), window_s,
+           {0.01, 10});
+  v.number(may("push_chi_square", "a window above it is a push, and the tilt is not to blame"),
+           push_chi_square, {2, 1e12});
+}
 
 BalanceAiding::BalanceAiding(const RobotParameters& robot, const BalanceSettings& settings)
     : dynamics_(robot),

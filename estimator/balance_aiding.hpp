@@ -7,6 +7,8 @@
 
 namespace ballbot {
 
+class ConfigVisitor;
+
 struct BalanceSettings {
   bool enabled = true;
   /// Of robot and ball about the contact with the floor, as encoders and gyroscope tell it: white,
@@ -18,6 +20,8 @@ struct BalanceSettings {
   double window_s = 0.1;
   /// Chi-square (2) of a window above which something pushes, and the tilt is not to blame.
   double push_chi_square = 12;
+
+  void describe(ConfigVisitor& v);
 };
 
 /// Tilt from the way the robot falls. An accelerometer at rest cannot tell its bias from a tilt;

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "estimator/attitude.hpp"
 #include "estimator/delay_compensation.hpp"
 #include "model/frames.hpp"
@@ -17,19 +17,28 @@ constexpr std::uint32_t kBlobVersion = 2;
 
 }  // namespace
 
+void ComplementarySettings::describe(ConfigVisitor& v) {
+  describeOwn(v);
+  SharedSettings::describe(v);
+}
+
+void ComplementarySettings::describeOwn(ConfigVisitor& v) {
+  v.number(may("velocity_bandwidth_rad_per_s",
+               "below it odometry decides about the velocity, above it the accelerometer"),
+           velocity_bandwidth_rad_per_s, {0.1, 200});
+  v.number(may("tilt_bandwidth_rad_per_s",
+               "below it gravity decides about the tilt, above it the gyroscope"),
+           tilt_bandwidth_rad_per_s, {0, 20});
+  v.number(may("gyro_bias_time_constant_s", "how slowly the gyroscope's bias follows"),
+           gyro_bias_time_constant_s, {1, 1e6});
+  v.number(may("velocity_innovation_limit_m_per_s",
+               "a larger difference between odometry and predicted velocity counts as this much"),
+           velocity_innovation_limit_m_per_s, {1e-3, 10});
+}
+
 ComplementarySettings ComplementarySettings::read(ConfigReader& in) {
   ComplementarySettings s;
-  s.velocity_bandwidth_rad_per_s =
-      in.numberOr("velocity_bandwidth_rad_per_s", s.velocity_bandwidth_rad_per_s, {0.1, 200});
-  s.tilt_bandwidth_rad_per_s =
-      in.numberOr("tilt_bandwidth_rad_per_s", s.tilt_bandwidth_rad_per_s, {0, 20});
-  s.gyro_bias_time_constant_s =
-      in.numberOr("gyro_bias_time_constant_s", s.gyro_bias_time_constant_s, {1, 1e6});
-  s.velocity_innovation_limit_m_per_s = in.numberOr(
-      "velocity_innovation_limit_m_per_s", s.velocity_innovation_limit_m_per_s, {1e-3, 10});
-  s.arm_rate_time_constant_s =
-      in.numberOr("arm_rate_time_constant_s", s.arm_rate_time_constant_s, {0, 0.1});
-  s.alignment_samples = in.integerOr("alignment_samples", s.alignment_samples, {1, 1e6});
+  readDescribed(in, s);
   return s;
 }
 

@@ -6,14 +6,16 @@
 #include "estimator/frame_order.hpp"
 #include "estimator/joint_history.hpp"
 #include "estimator/rest_alignment.hpp"
+#include "estimator/shared_settings.hpp"
 #include "estimator/wheel_odometry.hpp"
 #include "model/robot_parameters.hpp"
 
 namespace ballbot {
 
 class ConfigReader;
+class ConfigVisitor;
 
-struct ComplementarySettings {
+struct ComplementarySettings : SharedSettings {
   /// Below this odometry decides about the velocity, above it the accelerometer [rad/s].
   double velocity_bandwidth_rad_per_s = 15;
   /// Below this gravity decides about the tilt, above it the gyroscope [rad/s].
@@ -22,10 +24,10 @@ struct ComplementarySettings {
   double gyro_bias_time_constant_s = 60;
   /// A larger difference between odometry and predicted velocity counts as this much [m/s].
   double velocity_innovation_limit_m_per_s = 0.2;
-  double arm_rate_time_constant_s = 0.002;
-  /// IMU samples at rest before the estimate calls itself aligned.
-  int alignment_samples = 40;
 
+  void describe(ConfigVisitor& v);
+  /// Without those that every estimator has.
+  void describeOwn(ConfigVisitor& v);
   /// @throw InputError
   static ComplementarySettings read(ConfigReader& in);
 };

@@ -1,6 +1,6 @@
 #include "estimator/estimator_factory.hpp"
 
-#include "core/config_reader.hpp"
+#include "core/config_listing.hpp"
 #include "estimator/complementary_observer.hpp"
 #include "estimator/two_state_filter.hpp"
 
@@ -9,32 +9,49 @@ namespace {
 
 enum class EstimatorKind { kComplementary, kTwoState };
 
-// A file may hold the settings of both, so that `kind` alone can be changed; those of the other are
-// passed over.
-constexpr const char* kOnlyComplementary[] = {"velocity_bandwidth_rad_per_s",
-                                              "tilt_bandwidth_rad_per_s",
-                                              "gyro_bias_time_constant_s",
-                                              "velocity_innovation_limit_m_per_s"};
-constexpr const char* kOnlyTwoState[] = {"iterations", "imu_wait_ms", "noise", "initial",
-                                         "gate", "balance", "external_pose", "initial_tilt_error_deg"};
+void describeKind(ConfigVisitor& v, EstimatorKind& kind) {
+  v.choice(
+      must("kind", "which estimator; settings of the other are passed over"), kind,
+      {{"complementary", EstimatorKind::kComplementary}, {"two_state", EstimatorKind::kTwoState}});
+}
+
+/// A file may hold the settings of both, so that `kind` alone can be changed; those of the other
+/// are passed over.
+template <typename Settings>
+void passOver(ConfigReader& in) {
+  ConfigListing listing;
+  Settings().describe(listing);
+  for (const KeyEntry& entry : listing.take()) {
+    if (entry.path.find('.') == std::string::npos) in.raw(entry.path);
+  }
+}
 
 }  // namespace
 
 std::unique_ptr<Estimator> makeEstimator(ConfigReader& in, const RobotParameters& robot) {
+  ConfigReading reading(in);
+  auto kind = EstimatorKind::kTwoState;
+  describeKind(reading, kind);
   std::unique_ptr<Estimator> made;
-  switch (in.choice<EstimatorKind>("kind", {{"complementary", EstimatorKind::kComplementary},
-                                            {"two_state", EstimatorKind::kTwoState}})) {
+  switch (kind) {
     case EstimatorKind::kComplementary:
-      for (const char* key : kOnlyTwoState) in.raw(key);
+      passOver<TwoStateSettings>(in);
       made = std::make_unique<ComplementaryObserver>(robot, ComplementarySettings::read(in));
       break;
     case EstimatorKind::kTwoState:
-      for (const char* key : kOnlyComplementary) in.raw(key);
+      passOver<ComplementarySettings>(in);
       made = std::make_unique<TwoStateFilter>(robot, TwoStateSettings::read(in));
       break;
   }
   in.finish();
   return made;
+}
+
+void describeEstimator(ConfigVisitor& v) {
+  auto kind = EstimatorKind::kTwoState;
+  describeKind(v, kind);
+  TwoStateSettings().describe(v);
+  ComplementarySettings().describeOwn(v);
 }
 
 }  // namespace ballbot

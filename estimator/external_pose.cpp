@@ -6,10 +6,21 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "core/angle.hpp"
+#include "core/config_visitor.hpp"
 #include "estimator/attitude.hpp"
 #include "model/frames.hpp"
 
 namespace ballbot {
+
+void ExternalPoseSettings::describe(ConfigVisitor& v) {
+  v.number(may("position_sigma_m", "standard deviation of the position"), position_sigma_m,
+           {1e-5, 10});
+  v.number(may("yaw_sigma_deg", "standard deviation of the yaw"), yaw_sigma_rad, {1e-3, 180},
+           kRadPerDeg);
+  v.number(may("chi_square_limit", "above it a pose is refused, until ten in a row were"),
+           chi_square_limit, {5, 1e12});
+}
 
 bool RestPose::add(const Vector3& pose_W, const ExternalPoseSettings& settings) noexcept {
   Vector3 pose = pose_W;
@@ -31,9 +42,7 @@ bool RestPose::add(const Vector3& pose_W, const ExternalPoseSettings& settings) 
   return true;
 }
 
-Vector3 RestPose::mean() const noexcept {
-  return {mean_[0], mean_[1], unwrapped(mean_[2], 0.0)};
-}
+Vector3 RestPose::mean() const noexcept { return {mean_[0], mean_[1], unwrapped(mean_[2], 0.0)}; }
 
 void RestPose::save(BlobWriter& out) const {
   out.put(samples_);

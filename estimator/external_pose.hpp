@@ -8,6 +8,8 @@
 
 namespace ballbot {
 
+class ConfigVisitor;
+
 /// So many poses in a row against what is believed are right: it has drifted away unnoticed.
 constexpr int kPosesUntilBelieved = 10;
 
@@ -16,6 +18,8 @@ struct ExternalPoseSettings {
   double yaw_sigma_rad = 0.01;
   /// Chi-square (3) above which a pose is refused, until ten in a row were.
   double chi_square_limit = 30;
+
+  void describe(ConfigVisitor& v);
 };
 
 /// Where the robot stands while it is held, as the mean of the poses of that time. A pose far from

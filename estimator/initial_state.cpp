@@ -1,5 +1,7 @@
 #include "estimator/initial_state.hpp"
 
+#include "core/angle.hpp"
+#include "core/config_visitor.hpp"
 #include "model/frames.hpp"
 
 namespace ballbot {
@@ -13,6 +15,26 @@ constexpr double kAccelInMotion = 1.0;  // [m/s^2]
 double inverseSquare(double sigma) { return 1 / (sigma * sigma); }
 
 }  // namespace
+
+void InitialUncertainty::describe(ConfigVisitor& v) {
+  v.number(may("position_m", "of the ball's place at the release, which is zero by definition"),
+           position, {1e-6, 10});
+  v.number(may("yaw_deg", "of the yaw at the release, which is zero by definition"), yaw,
+           {1e-4, 180}, kRadPerDeg);
+  v.number(may("tilt_deg", "of pitch and roll"), tilt, {0.01, 45}, kRadPerDeg);
+  v.number(may("velocity_at_rest_m_per_s", "of the ball's velocity, where rest was seen"),
+           velocity_at_rest, {1e-5, 10});
+  v.number(may("omega_at_rest_rad_per_s", "of the base's angular velocity, where rest was seen"),
+           omega_at_rest, {1e-5, 10});
+  v.number(may("velocity_unknown_m_per_s", "of the ball's velocity, where no rest was seen"),
+           velocity_unknown, {1e-3, 10});
+  v.number(may("omega_unknown_rad_per_s", "of the base's angular velocity, where no rest was seen"),
+           omega_unknown, {1e-3, 10});
+  v.number(may("accel_bias_m_per_s2", "of the accelerometer's bias after switching on"), accel_bias,
+           {1e-5, 5});
+  v.number(may("gyro_bias_rad_per_s", "of the gyroscope's bias after switching on"), gyro_bias,
+           {1e-6, 1});
+}
 
 InitialEstimate initialEstimate(const RestAlignment& rest, bool at_rest,
                                 const InitialUncertainty& prior, const FilterNoise& noise,

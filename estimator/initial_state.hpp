@@ -6,6 +6,8 @@
 
 namespace ballbot {
 
+class ConfigVisitor;
+
 /// One standard deviation of what is known before any measurement.
 struct InitialUncertainty {
   double position = 1e-4;             ///< of px = py = 0, which is a definition [m]
@@ -17,6 +19,8 @@ struct InitialUncertainty {
   double omega_unknown = 0.5;         ///< likewise [rad/s]
   double accel_bias = 0.03;           ///< turn-on [m/s^2]
   double gyro_bias = 3e-3;            ///< turn-on [rad/s]
+
+  void describe(ConfigVisitor& v);
 };
 
 struct InitialEstimate {

@@ -19,7 +19,6 @@ class JointHistory {
   bool empty() const { return size_ == 0; }
   SimTime newestTime() const noexcept { return newest().time; }
   SimTime oldestTime() const noexcept { return fromNewest(size_ - 1).time; }
-  const JointVector& newestAngle() const noexcept { return newest().angle; }
 
   /// Angles at `time`, linear in between; held before the oldest and after the newest value.
   /// Not for an empty history [rad].

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/config_visitor.hpp"
+
 namespace ballbot {
 namespace {
 
@@ -11,6 +13,25 @@ constexpr int kStandingLong =
     8;  // intervals of 2.5 ms: at 0.02 rad/s an encoder of 0.025 deg moves
 
 }  // namespace
+
+void GateSettings::describe(ConfigVisitor& v) {
+  v.number(may("wheel_gate_sigma", "standard deviations beyond which a wheel increment is refused"),
+           wheel_gate_sigma, {2, 1e6});
+  v.number(may("wheel_slip_sigma",
+               "a wheel whose mean over 20 increments is further off is suspended until it halved"),
+           wheel_slip_sigma, {0.5, 1e6});
+  v.number(may("accel_jump_m_per_s2",
+               "jump between samples beyond which the accelerometer's is a spike"),
+           accel_jump_m_per_s2, {0.05, 1e6});
+  v.number(
+      may("gyro_jump_rad_per_s", "jump between samples beyond which the gyroscope's is a spike"),
+      gyro_jump_rad_per_s, {0.005, 1e6});
+  v.number(may("chi_square_limit", "above it the accelerometer is left out of an update"),
+           chi_square_limit, {10, 1e12});
+  v.number(may("state_doubt_after_s",
+               "several wheels refused for so long: the state is at fault, not the wheels"),
+           state_doubt_after_s, {0.005, 1e6});
+}
 
 bool SpikeGate::accepts(const Vector3& sample) noexcept {
   const bool ok =

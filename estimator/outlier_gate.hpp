@@ -5,6 +5,8 @@
 
 namespace ballbot {
 
+class ConfigVisitor;
+
 struct GateSettings {
   /// A wheel increment further off than this is refused [standard deviations].
   double wheel_gate_sigma = 5;
@@ -18,6 +20,8 @@ struct GateSettings {
   double chi_square_limit = 40;
   /// Two wheels or more refused for so long: the state is at fault, not the wheels [s].
   double state_doubt_after_s = 0.05;
+
+  void describe(ConfigVisitor& v);
 };
 
 /// A sample that jumps from the last accepted one is refused once; if the next agrees with it, the

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/config_visitor.hpp"
 #include "estimator/attitude.hpp"
 #include "model/frames.hpp"
 
@@ -20,6 +21,31 @@ Matrix32 rollingMatrix(double radius) {
 }
 
 }  // namespace
+
+void FilterNoise::describe(ConfigVisitor& v) {
+  v.number(may("gyro_rad_per_s_per_sqrt_Hz", "density of the gyroscope's white noise"),
+           gyro_density, {1e-7, 1});
+  v.number(may("accel_m_per_s2_per_sqrt_Hz", "density of the accelerometer's white noise"),
+           accel_density, {1e-6, 10});
+  v.number(may("accel_inflation", "factor on the accelerometer's noise, for vibration"),
+           accel_inflation, {1, 100});
+  v.number(may("gyro_bias_walk_rad_per_s_per_sqrt_s", "random walk of the gyroscope's bias"),
+           gyro_bias_walk, {1e-9, 1});
+  v.number(may("accel_bias_walk_m_per_s2_per_sqrt_s", "random walk of the accelerometer's bias"),
+           accel_bias_walk, {1e-8, 1});
+  v.number(may("wheel_increment_rad", "noise of a wheel's turn over an interval of the IMU"),
+           wheel_increment, {1e-6, 0.1});
+  v.number(may("position_walk_m_per_sqrt_s",
+               "random walk of the position, for micro-slip and integration rule"),
+           position_walk, {1e-6, 0.1});
+  v.number(
+      may("attitude_walk_rad_per_sqrt_s", "random walk of the attitude, for the integration rule"),
+      attitude_walk, {1e-6, 0.1});
+  v.number(may("coasting_accel_m_per_s2", "of the ball, while no accelerometer tells"),
+           coasting_accel, {0.1, 100});
+  v.number(may("coasting_angular_accel_rad_per_s2", "of the base, while no gyroscope tells"),
+           coasting_angular_accel, {0.1, 1000});
+}
 
 ResidualModel::ResidualModel(const RobotParameters& robot, const FilterNoise& noise)
     : noise_(noise),

@@ -7,6 +7,8 @@
 
 namespace ballbot {
 
+class ConfigVisitor;
+
 /// Noise of sensors and of the random walks, one standard deviation. Figures of the MTi-1 class.
 struct FilterNoise {
   double gyro_density = 1.2e-4;   ///< [rad/s/sqrt(Hz)]
@@ -20,6 +22,8 @@ struct FilterNoise {
   double attitude_walk = 4e-5;  ///< integration rule [rad/sqrt(s)]
   double coasting_accel = 3;    ///< of the ball, while no accelerometer tells [m/s^2]
   double coasting_angular_accel = 10;  ///< of the base, while no gyroscope tells [rad/s^2]
+
+  void describe(ConfigVisitor& v);
 };
 
 /// What was measured between two instants h apart.

@@ -8,6 +8,7 @@
 #include "core/config_reader.hpp"
 #include "experiment/believed_robot.hpp"
 #include "experiment/rejection_metrics.hpp"
+#include "model/pd_law.hpp"
 
 namespace ballbot {
 namespace {
@@ -113,9 +114,8 @@ void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutp
   if (now >= release_) {
     ++ticks_released_;
     if (policy_.from_stand_in) ++ticks_on_fallback_;
-    const ActuatorCommand& c = out.command;  // with the PD in the drives, their part is added here
-    const JointVector whole = c.torque + c.stiffness.cwiseProduct(c.position - sensors.joint_angle) +
-                              c.damping.cwiseProduct(c.velocity - sensors.joint_velocity);
+    // With the PD in the drives, their part is added here.
+    const JointVector whole = pdTorque(out.command, sensors.joint_angle, sensors.joint_velocity);
     feedforward_share_.add(policy_.torque, whole - policy_.torque);
   }
   law_->commanded(now, tracker_period_, out.command.torque);

@@ -10,6 +10,7 @@
 #include "experiment/checkpoint_files.hpp"
 #include "experiment/plan_age.hpp"
 #include "experiment/plant_link.hpp"
+#include "experiment/recording.hpp"
 #include "experiment/robot_controller.hpp"
 #include "experiment/run_metrics.hpp"
 #include "experiment/run_record.hpp"
@@ -24,24 +25,6 @@ using WallTime = std::chrono::steady_clock;
 std::int64_t wallNs() noexcept {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(WallTime::now().time_since_epoch())
       .count();
-}
-
-/// What of a run is kept, and how often.
-struct Recording {
-  RecorderOptions log;
-  SimDuration checkpoint_period{};  ///< zero: no checkpoints
-};
-
-Recording readRecording(const Scenario& scenario) {
-  Recording out;
-  out.log.sensors = out.log.estimate = scenario.rates.estimator;
-  if (const ConfigNode* node = scenario.tree.find("recording")) {
-    ConfigReader in(*node, "recording");
-    out.log.read(in);
-    out.checkpoint_period = in.durationOr("checkpoint_period_s", SimDuration::zero(), {0, 1e5});
-    in.finish();
-  }
-  return out;
 }
 
 /// Leaves a checkpoint at the first event at or after each multiple of a period.

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "core/config_reader.hpp"
 #include "core/config_values.hpp"
+#include "core/config_visitor.hpp"
 #include "core/digest.hpp"
 #include "core/error.hpp"
 #include "core/number_text.hpp"
@@ -19,17 +19,6 @@ namespace ballbot {
 namespace {
 
 namespace fs = std::filesystem;
-
-Rates readRates(ConfigReader in) {
-  Rates r;
-  r.base_step = in.durationOr("base_step_us", r.base_step, {1, 1e6});
-  r.tracker = in.durationOr("tracker_period_us", r.tracker, {1, 1e6});
-  r.estimator = in.durationOr("estimator_period_us", r.estimator, {1, 1e6});
-  r.planner = in.durationOr("planner_period_us", r.planner, {1, 1e7});
-  r.plan_latency = in.durationOr("plan_latency_us", r.plan_latency, {0, 1e6});
-  in.finish();
-  return r;
-}
 
 std::vector<MetricLimit> readRequirements(const ConfigNode& node) {
   if (node.kind() != ConfigNode::Kind::kMap) {
@@ -74,6 +63,18 @@ constexpr const char* kSections[] = {"robot",     "plant",    "initial",    "env
                                      "estimator", "controller", "recording", "fmus"};
 
 }  // namespace
+
+void Rates::describe(ConfigVisitor& v) {
+  v.duration(may("base_step_us", "of which every period is a whole multiple"), base_step,
+             {1, 1e6});
+  v.duration(may("tracker_period_us", "from one command to the drives to the next"), tracker,
+             {1, 1e6});
+  v.duration(may("estimator_period_us", "from one state estimate to the next"), estimator,
+             {1, 1e6});
+  v.duration(may("planner_period_us", "from one plan to the next"), planner, {1, 1e7});
+  v.duration(may("plan_latency_us", "age of a plan when it comes into force"), plan_latency,
+             {0, 1e6});
+}
 
 const ConfigNode& Scenario::section(const std::string& section_name) const {
   const ConfigNode* node = tree.find(section_name);
@@ -127,7 +128,11 @@ Scenario readScenario(ConfigNode tree, const std::vector<std::string>& overrides
   s.duration = in.duration("duration_s", {1e-3, 1e5});
   s.seed = static_cast<std::uint64_t>(readWhole(in, "seed", {0, kLargestWhole}));
   for (const char* section : kSections) in.raw(section);
-  if (in.has("rates")) s.rates = readRates(in.child("rates"));
+  if (in.has("rates")) {
+    ConfigReader rates = in.child("rates");
+    readDescribed(rates, s.rates);
+    rates.finish();
+  }
   if (const ConfigNode* node = in.raw("requirements")) s.requirements = readRequirements(*node);
   in.finish();
 

@@ -11,6 +11,8 @@
 
 namespace ballbot {
 
+class ConfigVisitor;
+
 /// How often each part of the controller runs, and how old its plans are when they act.
 struct Rates {
   SimDuration tracker = std::chrono::microseconds(400);
@@ -18,6 +20,8 @@ struct Rates {
   SimDuration planner = std::chrono::milliseconds(14);
   SimDuration plan_latency = SimDuration::zero();
   SimDuration base_step = std::chrono::microseconds(100);  ///< every period is a multiple of it
+
+  void describe(ConfigVisitor& v);
 };
 
 /// One line of a scenario's `requirements`: a metric and what it must stay below or above.

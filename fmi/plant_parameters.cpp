@@ -2,128 +2,102 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/angle.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_listing.hpp"
 #include "core/error.hpp"
+#include "model/robot_reader.hpp"
 #include "plant/plant_config.hpp"
 
 namespace ballbot {
 namespace {
 
-PlantParameter real(std::string path, const char* unit, const char* description, double fallback) {
-  return {std::move(path), VariableType::kReal, unit, description, fallback, {}, {}};
-}
-PlantParameter flag(std::string path, const char* description, bool fallback) {
-  return {std::move(path), VariableType::kBoolean, "", description, fallback ? 1.0 : 0.0, {}, {}};
-}
-PlantParameter whole(std::string path, const char* description, double fallback) {
-  return {std::move(path), VariableType::kInteger, "", description, fallback, {}, {}};
-}
-PlantParameter choice(std::string path, const char* description, double fallback,
-                      std::vector<std::string> choices) {
-  return {std::move(path), VariableType::kEnumeration, "", description,
-          fallback,        std::move(choices),         {}};
+/// Sections whose own plain keys are parameters. Others exist only where a scenario has them, and
+/// a parameter cannot make them.
+const std::set<std::string> kSections = {"",
+                                         "robot.actuators.wheel",
+                                         "robot.actuators.arm",
+                                         "robot.sensors.imu",
+                                         "robot.sensors.encoders",
+                                         "plant",
+                                         "plant.fidelity",
+                                         "initial",
+                                         "environment"};
+
+void describeParts(ConfigVisitor& v) {
+  int seed = static_cast<int>(PlantConfig().seed);
+  v.integer(may("seed", "of every noise source"), seed, {0, kInf});
+  v.section(must("plant", "the plant"), describePlant);
+  v.section(must("initial", "the start"), describeInitial);
+  v.section(must("environment", "around the robot"), describeEnvironment);
+  v.section(must("robot", "the robot"), [](ConfigVisitor& robot) {
+    robot.section(must("actuators", "its drives"),
+                  [](ConfigVisitor& in) { RobotActuators().describe(in); });
+    robot.section(must("sensors", "its sensors"), describeSensors);
+  });
 }
 
-void addActuator(std::vector<PlantParameter>& out, const std::string& group,
-                 const std::string& who) {
-  const ActuatorParameters a;
-  const auto add = [&](const char* key, const char* unit, const std::string& text,
-                       double fallback) {
-    out.push_back(real("robot.actuators." + group + "." + key, unit, "", fallback));
-    out.back().description = who + ": " + text;
-  };
-  add("gear_ratio", "", "motor to joint", a.gear_ratio);
-  add("motor_inertia_kgm2", "kg m^2", "rotor inertia, motor side", a.motor_inertia);
-  add("spring_stiffness_Nm_per_rad", "N m/rad", "spring stiffness", a.spring_stiffness);
-  add("spring_damping_Nms_per_rad", "N m s/rad", "spring damping", a.spring_damping);
-  add("viscous_friction_Nms_per_rad", "N m s/rad", "viscous friction at the rotor, joint side",
-      a.viscous_friction);
-  add("coulomb_friction_Nm", "N m", "Coulomb friction", a.coulomb_friction);
-  add("static_friction_Nm", "N m", "static friction", a.static_friction);
-  add("stribeck_velocity_rad_per_s", "rad/s", "Stribeck velocity", a.stribeck_velocity);
-  add("peak_torque_Nm", "N m", "motor torque at which it saturates, joint side", a.peak_torque);
-  add("speed_limit_rad_per_s", "rad/s", "motor speed limit, joint side", a.speed_limit);
-  add("current_loop_bandwidth_Hz", "Hz", "bandwidth of the current loop", a.current_loop_bandwidth);
-  add("torque_bandwidth_Hz", "Hz", "wanted bandwidth of the torque loop, output blocked",
-      a.torque_bandwidth);
-  add("damping_ratio", "", "wanted damping of the torque loop, output blocked", a.damping_ratio);
+std::string sectionOf(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string::npos ? "" : path.substr(0, dot);
 }
 
-void addSensors(std::vector<PlantParameter>& out) {
-  const ImuParameters i;
-  const EncoderParameters e;
-  const std::string imu = "robot.sensors.imu.", encoders = "robot.sensors.encoders.";
-  out.push_back(real(imu + "gyro_noise_rad_per_s_per_sqrtHz", "rad/s/sqrt(Hz)",
-                     "density of the gyroscope's white noise", i.gyro_noise));
-  out.push_back(real(imu + "accel_noise_m_per_s2_per_sqrtHz", "m/s^2/sqrt(Hz)",
-                     "density of the accelerometer's white noise", i.accel_noise));
-  out.push_back(real(imu + "gyro_bias_walk_rad_per_s_per_sqrts", "rad/s/sqrt(s)",
-                     "random walk of the gyroscope's bias", i.gyro_bias_walk));
-  out.push_back(real(imu + "accel_bias_walk_m_per_s2_per_sqrts", "m/s^2/sqrt(s)",
-                     "random walk of the accelerometer's bias", i.accel_bias_walk));
-  out.push_back(real(imu + "gyro_turn_on_bias_rad_per_s", "rad/s",
-                     "standard deviation of the gyroscope's bias after switching on",
-                     i.gyro_turn_on_bias));
-  out.push_back(real(imu + "accel_turn_on_bias_m_per_s2", "m/s^2",
-                     "standard deviation of the accelerometer's bias after switching on",
-                     i.accel_turn_on_bias));
-  out.push_back(real(imu + "gyro_resolution_rad_per_s", "rad/s",
-                     "quantum of the gyroscope's output, 0 for none", i.gyro_resolution));
-  out.push_back(real(imu + "accel_resolution_m_per_s2", "m/s^2",
-                     "quantum of the accelerometer's output, 0 for none", i.accel_resolution));
-  out.push_back(real(encoders + "motor_resolution_deg", "deg",
-                     "quantum of the encoder behind the gear, joint side",
-                     e.motor_resolution / kRadPerDeg));
-  out.push_back(real(encoders + "joint_resolution_deg", "deg",
-                     "quantum of the encoder behind the spring", e.joint_resolution / kRadPerDeg));
-  out.push_back(real(encoders + "velocity_filter_Hz", "Hz",
-                     "low-pass on the differenced joint angle", e.joint_velocity_filter));
+/// Drives of wheels and arm have the same words.
+std::string whose(const std::string& section) {
+  if (section == "robot.actuators.wheel") return "wheels: ";
+  if (section == "robot.actuators.arm") return "arm joints: ";
+  return "";
+}
+
+std::optional<PlantParameter> parameterOf(const KeyEntry& key) {
+  const std::string section = sectionOf(key.path);
+  if (kSections.count(section) == 0) return std::nullopt;
+  PlantParameter p;
+  p.path = key.path;
+  p.unit = key.unit;
+  p.description = whose(section) + key.words;
+  const std::string& fallback = key.fallback;
+  switch (key.kind) {
+    case KeyKind::kNumber:
+    case KeyKind::kInteger:
+      p.type = key.kind == KeyKind::kNumber ? VariableType::kReal : VariableType::kInteger;
+      if (!fallback.empty()) p.fallback = std::stod(fallback);
+      return p;
+    case KeyKind::kDuration:
+      // Periods decide when the plant can be stepped to; they are the scenario's.
+      if (section != "initial") return std::nullopt;
+      p.fallback = std::stod(fallback);
+      return p;
+    case KeyKind::kBoolean:
+      p.type = VariableType::kBoolean;
+      p.fallback = fallback == "true" ? 1 : 0;
+      return p;
+    case KeyKind::kChoice: {
+      p.type = VariableType::kEnumeration;
+      p.choices = key.choices;
+      const auto at = std::find(p.choices.begin(), p.choices.end(), fallback);
+      p.fallback = static_cast<double>(at - p.choices.begin()) + 1;
+      return p;
+    }
+    default:
+      return std::nullopt;
+  }
 }
 
 std::vector<PlantParameter> makeParameters() {
-  const PlantFidelity f;
-  const PlantConfig c;
-  const std::string fidelity = "plant.fidelity.";
-  std::vector<PlantParameter> out = {
-      whole("seed", "of every noise source", static_cast<double>(c.seed)),
-      choice(fidelity + "multibody", "how the robot is cut into bodies; same motion",
-             f.multibody == MultibodyStructure::kFull ? 1 : 2, {"full", "reduced_wheels"}),
-      choice(fidelity + "actuators", "torque at once, or through motor, gear and spring",
-             f.actuators == ActuatorLevel::kIdeal ? 1 : 2, {"ideal", "series_elastic"}),
-      choice(fidelity + "contact",
-             "whether the ball may spin about the vertical, and the floor give way",
-             1 + static_cast<int>(f.contact),
-             {"rolling", "rolling_with_spin_friction", "compliant"}),
-      choice(fidelity + "sensors", "exact values, or noise, bias and quantisation",
-             f.noisy_sensors ? 2 : 1, {"perfect", "noisy"}),
-      flag(fidelity + "encoder_quantisation", "whole encoder counts; with noisy sensors",
-           f.encoder_quantisation),
-      flag(fidelity + "friction", "viscous, Coulomb and Stribeck friction at the rotors",
-           f.friction),
-      flag(fidelity + "saturation", "motor torque ends at its peak", f.saturation),
-      flag(fidelity + "speed_limit", "no torque left beyond the motor's speed limit",
-           f.speed_limit),
-      flag(fidelity + "transport_delay", "commands are on their way for some drive ticks",
-           f.transport_delay),
-      whole("plant.transport_delay_ticks", "drive ticks from command to drive",
-            c.transport_delay_ticks),
-      flag("plant.leak_compensation", "drives feed their rotor's inertia and drag forward",
-           c.leak_compensation),
-      real("initial.pitch_deg", "deg", "pitch at the start", 0),
-      real("initial.roll_deg", "deg", "roll at the start", 0),
-      real("initial.yaw_deg", "deg", "yaw at the start", 0),
-      real("initial.release_s", "s", "until then a stand holds the robot still", 0),
-      real("environment.payload_kg", "kg", "point mass at the end-effector", 0),
-  };
-  out.back().otherwise = "robot.payload_mass_kg";
-  addActuator(out, "wheel", "wheels");
-  addActuator(out, "arm", "arm joints");
-  addSensors(out);
+  ConfigListing listing;
+  describeParts(listing);
+  std::vector<PlantParameter> out;
+  for (const KeyEntry& key : listing.take()) {
+    if (auto parameter = parameterOf(key)) out.push_back(std::move(*parameter));
+  }
+  for (PlantParameter& p : out) {
+    if (p.path == "environment.payload_kg") p.otherwise = "robot.payload_mass_kg";
+  }
   return out;
 }
 

@@ -40,7 +40,6 @@ class FmuVariables {
   explicit FmuVariables(const ConfigNode& scenario);
 
   const std::vector<FmuVariable>& all() const { return all_; }
-  std::size_t valueCount() const { return owner_.size(); }
   /// The variable an element belongs to; null where there is no such reference.
   const FmuVariable* find(ValueReference reference) const {
     return reference < owner_.size() ? &all_[owner_[reference]] : nullptr;

@@ -26,7 +26,6 @@ class BalanceMetrics {
   void add(const TruthFrame& truth, const ActuatorCommand& command);
 
   bool fell() const { return fell_; }
-  SimTime fallTime() const { return fall_time_; }
 
   /// Every number under its documented name (docs/metrics.md), e.g. "largest_tilt_deg". NaN-free:
   /// a metric without data is absent.

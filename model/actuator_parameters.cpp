@@ -5,11 +5,10 @@
 #include <fmt/format.h>
 
 #include "core/angle.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "core/error.hpp"
 
 namespace ballbot {
-namespace {}  // namespace
 
 // Output blocked: tau_s/tau_d = k (1 + Kp) / (J s^2 + (B + k Kd) s + k (1 + Kp)). Both gains follow
 // from its natural frequency and damping.
@@ -23,23 +22,33 @@ double ActuatorParameters::torqueGainD() const {
   return (2 * damping_ratio * reflectedInertia() * w - viscous_friction) / spring_stiffness;
 }
 
+void ActuatorParameters::describe(ConfigVisitor& v) {
+  const Range positive{kTiny, kInf}, not_negative{0, kInf};
+  v.number(must("gear_ratio", "motor to joint"), gear_ratio, positive);
+  v.number(must("motor_inertia_kgm2", "rotor inertia, motor side"), motor_inertia, positive);
+  v.number(must("spring_stiffness_Nm_per_rad", "spring stiffness"), spring_stiffness, positive);
+  v.number(must("spring_damping_Nms_per_rad", "spring damping"), spring_damping, not_negative);
+  v.number(must("viscous_friction_Nms_per_rad", "viscous friction at the rotor, joint side"),
+           viscous_friction, not_negative);
+  v.number(must("coulomb_friction_Nm", "Coulomb friction"), coulomb_friction, not_negative);
+  v.number(must("static_friction_Nm", "static friction"), static_friction, not_negative);
+  v.number(must("stribeck_velocity_rad_per_s", "Stribeck velocity"), stribeck_velocity, positive);
+  v.number(must("friction_smoothing_rad_per_s", "rate at which dry friction changes its sign"),
+           friction_smoothing, positive);
+  v.number(must("peak_torque_Nm", "motor torque at which it saturates, joint side"), peak_torque,
+           positive);
+  v.number(must("speed_limit_rad_per_s", "motor speed limit, joint side"), speed_limit, positive);
+  v.number(must("current_loop_bandwidth_Hz", "bandwidth of the current loop"),
+           current_loop_bandwidth, positive);
+  v.number(must("torque_bandwidth_Hz", "wanted bandwidth of the torque loop, output blocked"),
+           torque_bandwidth, positive);
+  v.number(must("damping_ratio", "wanted damping of the torque loop, output blocked"),
+           damping_ratio, positive);
+}
+
 ActuatorParameters ActuatorParameters::read(ConfigReader& in) {
   ActuatorParameters p;
-  const Range positive{kTiny, kInf}, not_negative{0, kInf};
-  p.gear_ratio = in.number("gear_ratio", positive);
-  p.motor_inertia = in.number("motor_inertia_kgm2", positive);
-  p.spring_stiffness = in.number("spring_stiffness_Nm_per_rad", positive);
-  p.spring_damping = in.number("spring_damping_Nms_per_rad", not_negative);
-  p.viscous_friction = in.number("viscous_friction_Nms_per_rad", not_negative);
-  p.coulomb_friction = in.number("coulomb_friction_Nm", not_negative);
-  p.static_friction = in.number("static_friction_Nm", not_negative);
-  p.stribeck_velocity = in.number("stribeck_velocity_rad_per_s", positive);
-  p.friction_smoothing = in.number("friction_smoothing_rad_per_s", positive);
-  p.peak_torque = in.number("peak_torque_Nm", positive);
-  p.speed_limit = in.number("speed_limit_rad_per_s", positive);
-  p.current_loop_bandwidth = in.number("current_loop_bandwidth_Hz", positive);
-  p.torque_bandwidth = in.number("torque_bandwidth_Hz", positive);
-  p.damping_ratio = in.number("damping_ratio", positive);
+  readDescribed(in, p);
   in.finish();
 
   if (p.static_friction < p.coulomb_friction) {

@@ -3,6 +3,7 @@
 namespace ballbot {
 
 class ConfigReader;
+class ConfigVisitor;
 
 /// One series elastic actuator, seen from the joint (link side of the gear).
 /// Figures of the ANYdrive class; see docs/theory/actuator.md for their sources.
@@ -30,6 +31,7 @@ struct ActuatorParameters {
   double torqueGainP() const;
   double torqueGainD() const;
 
+  void describe(ConfigVisitor& v);
   /// @throw InputError if the wanted bandwidth needs a negative gain.
   static ActuatorParameters read(ConfigReader& in);
 };

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/angle.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "core/error.hpp"
 #include "model/drive_agreement.hpp"
 #include "model/limits.hpp"
@@ -35,14 +35,34 @@ void checkApart(const std::array<double, kWheelCount>& azimuth, const std::strin
   }
 }
 
-void readWheels(ConfigReader in, RobotParameters::Wheels& wheels) {
-  wheels.radius = in.number("radius_m", {kTiny, kInf});
-  wheels.contact_zenith = kRadPerDeg * in.number("contact_zenith_deg", {1, 89});
-  wheels.azimuth = in.numbers<kWheelCount>("azimuth_deg", {-360, 360});
-  for (double& azimuth : wheels.azimuth) azimuth *= kRadPerDeg;
-  checkApart(wheels.azimuth, in.at("azimuth_deg"));
-  in.finish();
-}
+/// What the `robot:` section itself holds, beside the URDF that it names.
+struct RobotFile {
+  std::string urdf;
+  double gravity = 9.81, total_mass = 0, payload_mass = 0;
+  double wheel_radius = 0, contact_zenith = 0;
+  std::array<double, kWheelCount> azimuth{};
+  std::array<double, kArmJointCount> nominal_arm{};
+  double wheel_torque_limit = 0, arm_torque_limit = 0;
+
+  void describe(ConfigVisitor& v) {
+    v.text(must("urdf", "file with the bodies, beside the one that names it"), urdf);
+    v.number(must("gravity_m_per_s2", "acceleration of free fall"), gravity, {0.1, 100});
+    v.section(must("wheels", "where the wheels touch the ball"), [this](ConfigVisitor& wheels) {
+      wheels.number(must("radius_m", "of a wheel"), wheel_radius, {kTiny, kInf});
+      wheels.number(must("contact_zenith_deg", "angle of the contacts from the ball's top"),
+                    contact_zenith, {1, 89}, kRadPerDeg);
+      wheels.vector(must("azimuth_deg", "of each wheel about the vertical, from ahead"), azimuth,
+                    {-360, 360}, kRadPerDeg);
+    });
+    v.number(must("total_mass_kg", "of all links, a check on the URDF"), total_mass, {kTiny, kInf});
+    v.number(may("payload_mass_kg", "point mass at the end-effector"), payload_mass, {0, 100});
+    v.vector(must("nominal_arm_rad", "angles of the arm at rest"), nominal_arm);
+    v.number(must("wheel_torque_limit_Nm", "what is asked of a wheel at most"), wheel_torque_limit,
+             {kTiny, kInf});
+    v.number(must("arm_torque_limit_Nm", "what is asked of an arm joint at most"), arm_torque_limit,
+             {kTiny, kInf});
+  }
+};
 
 /// URDF and YAML both say where the wheels are; a robot whose picture and equations differ would
 /// be found out late.
@@ -75,39 +95,39 @@ std::string urdfPath(const ConfigNode& urdf) {
 }
 
 RobotParameters readRobot(ConfigReader& in) {
-  in.text("urdf");  // checks that it is there and a text
+  RobotFile file;
+  readDescribed(in, file);
   const std::string path = urdfPath(*in.raw("urdf"));
   const UrdfRobot urdf = loadUrdf(path);
   RobotParameters robot = urdf.parameters;
 
-  robot.gravity = in.number("gravity_m_per_s2", {0.1, 100});
-  readWheels(in.child("wheels"), robot.wheels);
+  robot.gravity = file.gravity;
+  robot.wheels.radius = file.wheel_radius;
+  robot.wheels.contact_zenith = file.contact_zenith;
+  robot.wheels.azimuth = file.azimuth;
+  checkApart(robot.wheels.azimuth, in.child("wheels").at("azimuth_deg"));
   checkWheelPlacement(urdf, robot, in.at("wheels"));
 
-  const double total = in.number("total_mass_kg", {kTiny, kInf});
-  if (std::abs(robot.totalMass() - total) > 1e-6 * total) {
+  if (std::abs(robot.totalMass() - file.total_mass) > 1e-6 * file.total_mass) {
     throw InputError(fmt::format("{} is {}, but the links of {} sum to {:.9g} kg",
-                                 in.at("total_mass_kg"), total, path, robot.totalMass()));
+                                 in.at("total_mass_kg"), file.total_mass, path, robot.totalMass()));
   }
-  robot.payload_mass = in.numberOr("payload_mass_kg", 0, {0, 100});
+  robot.payload_mass = file.payload_mass;
 
-  const auto arm = in.numbers<kArmJointCount>("nominal_arm_rad");
   for (int i = 0; i < kArmJointCount; ++i) {
     const ArmLink& link = robot.arm[i];
-    if (arm[i] < link.lower_limit || arm[i] > link.upper_limit) {
+    const double angle = file.nominal_arm[static_cast<std::size_t>(i)];
+    if (angle < link.lower_limit || angle > link.upper_limit) {
       throw InputError(
           fmt::format("{} puts joint {} at {} rad, must be between {} and {} (link "
                       "'{}' of {})",
-                      in.at("nominal_arm_rad"), i + 1, arm[i], link.lower_limit, link.upper_limit,
+                      in.at("nominal_arm_rad"), i + 1, angle, link.lower_limit, link.upper_limit,
                       link.name, path));
     }
-    robot.nominal_arm[i] = arm[i];
+    robot.nominal_arm[i] = angle;
   }
-  const auto torqueLimit = [&](const char* key) {
-    return std::min(in.number(key, {kTiny, kInf}), kUnlimited);
-  };
-  robot.wheel_torque_limit = torqueLimit("wheel_torque_limit_Nm");
-  robot.arm_torque_limit = torqueLimit("arm_torque_limit_Nm");
+  robot.wheel_torque_limit = std::min(file.wheel_torque_limit, kUnlimited);
+  robot.arm_torque_limit = std::min(file.arm_torque_limit, kUnlimited);
 
   if (in.has("actuators")) {
     const RobotActuators actuators = readActuators(in);
@@ -117,6 +137,19 @@ RobotParameters readRobot(ConfigReader& in) {
   in.raw("sensors");
   in.finish();
   return robot;
+}
+
+void RobotActuators::describe(ConfigVisitor& v) {
+  v.section(must("wheel", "drive of each wheel"),
+            [this](ConfigVisitor& in) { wheel.describe(in); });
+  v.section(must("arm", "drive of each arm joint"),
+            [this](ConfigVisitor& in) { arm.describe(in); });
+}
+
+void describeRobot(ConfigVisitor& v) {
+  RobotFile().describe(v);
+  v.section(may("actuators", "figures of the drives; without, they are ideal"),
+            [](ConfigVisitor& in) { RobotActuators().describe(in); });
 }
 
 RobotActuators readActuators(ConfigReader& robot) {

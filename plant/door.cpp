@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/angle.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 namespace {
@@ -28,27 +28,28 @@ double stopTorque(const DoorParameters& p, const DoorMotion& m) {
 
 }  // namespace
 
-DoorParameters DoorParameters::read(ConfigReader& in) {
-  DoorParameters p;
-  const auto hinge = in.numbers<2>("hinge_m", {-100, 100});
-  p.hinge << hinge[0], hinge[1];
-  p.closed_heading = kRadPerDeg * in.number("closed_heading_deg", {-360, 360});
-  p.counterclockwise = in.choice(
-      "opens", {std::pair<const char*, bool>{"counterclockwise", true}, {"clockwise", false}});
-  p.width = in.numberOr("width_m", p.width, {0.1, 10});
-  p.height = in.numberOr("height_m", p.height, {0.1, 10});
-  p.thickness = in.numberOr("thickness_m", p.thickness, {1e-3, 1});
-  p.inertia = in.number("inertia_kgm2", {1e-3, 1e4});
-  p.damping = in.numberOr("damping_Nms_per_rad", p.damping, {0, 1e4});
-  p.friction = in.numberOr("friction_Nm", p.friction, {0, 1e3});
-  p.friction_smoothing =
-      in.numberOr("friction_smoothing_rad_per_s", p.friction_smoothing, {1e-4, 10});
-  p.closer_torque = in.numberOr("closer_torque_Nm", p.closer_torque, {0, 1e3});
-  p.closer_stiffness = in.numberOr("closer_stiffness_Nm_per_rad", p.closer_stiffness, {0, 1e3});
-  p.opening_limit =
-      kRadPerDeg * in.numberOr("opening_limit_deg", p.opening_limit / kRadPerDeg, {1, 300});
-  in.finish();
-  return p;
+void DoorParameters::describe(ConfigVisitor& v) {
+  v.vector(must("hinge_m", "x and y of the hinge's axis, through which the front passes"), hinge,
+           {-100, 100});
+  v.number(must("closed_heading_deg", "direction of the closed leaf, seen from the hinge"),
+           closed_heading, {-360, 360}, kRadPerDeg);
+  v.choice(must("opens", "way it turns as it opens, away from its front; seen from above"),
+           counterclockwise, {{"counterclockwise", true}, {"clockwise", false}});
+  v.number(may("width_m", "of the leaf"), width, {0.1, 10});
+  v.number(may("height_m", "of the leaf"), height, {0.1, 10});
+  v.number(may("thickness_m", "of the leaf"), thickness, {1e-3, 1});
+  v.number(must("inertia_kgm2", "of the leaf about the hinge"), inertia, {1e-3, 1e4});
+  v.number(may("damping_Nms_per_rad", "viscous friction of the hinge"), damping, {0, 1e4});
+  v.number(may("friction_Nm", "dry friction of the hinge"), friction, {0, 1e3});
+  v.number(may("friction_smoothing_rad_per_s",
+               "rate at which three quarters of the dry friction are reached"),
+           friction_smoothing, {1e-4, 10});
+  v.number(may("closer_torque_Nm", "of the closer towards closed, at closed"), closer_torque,
+           {0, 1e3});
+  v.number(may("closer_stiffness_Nm_per_rad", "what the closer adds to its torque as it opens"),
+           closer_stiffness, {0, 1e3});
+  v.number(may("opening_limit_deg", "angle at which the buffer stops the door"), opening_limit,
+           {1, 300}, kRadPerDeg);
 }
 
 DoorMotion doorAtRest(const DoorParameters& p) { return {-p.closer_torque / p.stop_stiffness, 0}; }

@@ -4,7 +4,7 @@
 
 namespace ballbot {
 
-class ConfigReader;
+class ConfigVisitor;
 
 /// A leaf on a vertical hinge. Angle zero is closed; it opens to the side away from its front, and
 /// the front passes through the axis of the hinge. Torque about the hinge, positive to open:
@@ -16,18 +16,17 @@ struct DoorParameters {
   double closed_heading = 0;     ///< of the closed leaf, seen from the hinge, about z_W [rad]
   bool counterclockwise = true;  ///< seen from above, as it opens
   double width = 0.9, height = 2, thickness = 0.04;  ///< of the leaf [m]
-  double inertia = 6;               ///< about the hinge [kg m^2]
-  double damping = 0;               ///< [N m s/rad]
-  double friction = 0;              ///< [N m]
-  double friction_smoothing = 0.01; ///< rate at which three quarters of it are reached [rad/s]
-  double closer_torque = 0;         ///< towards closed, at closed [N m]
-  double closer_stiffness = 0;      ///< [N m/rad]
-  double opening_limit = 2;         ///< [rad]
-  double stop_stiffness = 4000;     ///< of frame and buffer [N m/rad]
-  double stop_damping = 60;         ///< [N m s/rad]
+  double inertia = 6;                                ///< about the hinge [kg m^2]
+  double damping = 0;                                ///< [N m s/rad]
+  double friction = 0;                               ///< [N m]
+  double friction_smoothing = 0.01;  ///< rate at which three quarters of it are reached [rad/s]
+  double closer_torque = 0;          ///< towards closed, at closed [N m]
+  double closer_stiffness = 0;       ///< [N m/rad]
+  double opening_limit = 2;          ///< [rad]
+  double stop_stiffness = 4000;      ///< of frame and buffer [N m/rad]
+  double stop_damping = 60;          ///< [N m s/rad]
 
-  /// @throw InputError for bad keys or values.
-  static DoorParameters read(ConfigReader& in);
+  void describe(ConfigVisitor& v);
 };
 
 /// Angle and rate of a door.

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "core/error.hpp"
 #include "model/robot_reader.hpp"
 
@@ -24,22 +24,31 @@ BodyIndex bodyByName(ConfigReader& in, const RobotParameters& robot) {
   return static_cast<BodyIndex>(it - names.begin());
 }
 
-Vector3 vector3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
-
 }  // namespace
+
+void Push::describe(ConfigVisitor& v, const RobotParameters& robot) {
+  v.other(must("body", "on which the force acts"),
+          "ball, base, or a link of the arm by its URDF name",
+          [&](ConfigReader& in) { body = bodyByName(in, robot); });
+  v.vector(may("point_m", "where it acts, from the body's origin in its axes"), p_BP_B, {-10, 10});
+  v.vector(must("force_N", "constant in the world"), force_W, {-1e4, 1e4});
+  SimDuration since = start - kSimStart;
+  v.duration(must("start_s", "when the force sets in"), since, {0, 1e6});
+  start = kSimStart + since;
+  v.duration(must("duration_s", "how long the force acts"), duration, {kTiny, 1e6});
+}
+
+void describePushes(ConfigVisitor& v, std::vector<Push>& pushes, const RobotParameters& robot) {
+  v.list(may("pushes", "forces on points of bodies, each for some time"), [&](ConfigVisitor& in) {
+    pushes.emplace_back();
+    pushes.back().describe(in, robot);
+  });
+}
 
 std::vector<Push> readPushes(ConfigReader& environment, const RobotParameters& robot) {
   std::vector<Push> pushes;
-  for (ConfigReader& in : environment.list("pushes")) {
-    Push p;
-    p.body = bodyByName(in, robot);
-    p.p_BP_B = vector3(in.numbersOr<3>("point_m", {0, 0, 0}, {-10, 10}));
-    p.force_W = vector3(in.numbers<3>("force_N", {-1e4, 1e4}));
-    p.start = kSimStart + in.duration("start_s", {0, 1e6});
-    p.duration = in.duration("duration_s", {kTiny, 1e6});
-    in.finish();
-    pushes.push_back(p);
-  }
+  ConfigReading reading(environment);
+  describePushes(reading, pushes, robot);
   return pushes;
 }
 

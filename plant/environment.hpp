@@ -11,6 +11,7 @@ namespace ballbot {
 
 class ConfigNode;
 class ConfigReader;
+class ConfigVisitor;
 
 /// A force on a point of a body, constant in W from `start` for `duration`.
 struct Push {
@@ -20,12 +21,15 @@ struct Push {
   SimTime start{};
   SimDuration duration{};
 
+  /// @param robot  whose arm's links `body` may name
+  void describe(ConfigVisitor& v, const RobotParameters& robot);
+
   SimTime end() const { return start + duration; }
   bool activeAt(SimTime t) const { return start <= t && t < end(); }
 };
 
-/// Reads `pushes:` of the `environment:` section. `body` is ball, base, or a link of the arm by its
-/// URDF name.
+/// `pushes:` of the `environment:` section; those read are appended.
+void describePushes(ConfigVisitor& v, std::vector<Push>& pushes, const RobotParameters& robot);
 /// @throw InputError for an unknown body or bad values.
 std::vector<Push> readPushes(ConfigReader& environment, const RobotParameters& robot);
 

@@ -3,21 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 
-ContactParameters ContactParameters::read(ConfigReader& in) {
-  ContactParameters p;
-  p.stiffness = in.numberOr("stiffness_N_per_m", p.stiffness, {1, 1e5});
-  p.damping = in.numberOr("damping_Ns_per_m", p.damping, {0, 1e3});
-  p.friction = in.numberOr("friction", p.friction, {0, 10});
-  p.tangential_stiffness =
-      in.numberOr("tangential_stiffness_N_per_m", p.tangential_stiffness, {1, 1e5});
-  p.tangential_damping = in.numberOr("tangential_damping_Ns_per_m", p.tangential_damping, {0, 1e3});
-  in.finish();
-  return p;
+void ContactParameters::describe(ConfigVisitor& v) {
+  v.number(may("stiffness_N_per_m", "of the contact's spring across the face"), stiffness,
+           {1, 1e5});
+  v.number(may("damping_Ns_per_m", "of the contact's damper across the face"), damping, {0, 1e3});
+  v.number(may("friction", "coefficient of friction along the face"), friction, {0, 10});
+  v.number(may("tangential_stiffness_N_per_m", "along the face, while the point sticks"),
+           tangential_stiffness, {1, 1e5});
+  v.number(may("tangential_damping_Ns_per_m", "along the face, while the point sticks"),
+           tangential_damping, {0, 1e3});
 }
 
 Matrix3 faceAxes(double heading) {
@@ -57,8 +55,8 @@ Touch touch(const ContactParameters& p, const Face& face, const Vector3& p_WP,
 
   out.force_W = face.R_WF * Vector3(tangential.x(), tangential.y(), normal);
   out.foot_W = p_WP + depth * face.R_WF.col(2);
-  out.stored = 0.5 * p.stiffness * depth * depth +
-               0.5 * p.tangential_stiffness * stretch.squaredNorm();
+  out.stored =
+      0.5 * p.stiffness * depth * depth + 0.5 * p.tangential_stiffness * stretch.squaredNorm();
   return out;
 }
 

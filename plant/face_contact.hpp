@@ -5,7 +5,7 @@
 
 namespace ballbot {
 
-class ConfigReader;
+class ConfigVisitor;
 
 /// Contact of a point with a plane face, as a spring and damper across it and friction along it.
 struct ContactParameters {
@@ -15,18 +15,17 @@ struct ContactParameters {
   double tangential_stiffness = 4000;  ///< along the face, while the point sticks [N/m]
   double tangential_damping = 60;      ///< along the face, while the point sticks [N s/m]
 
-  /// @throw InputError for bad keys or values.
-  static ContactParameters read(ConfigReader& in);
+  void describe(ConfigVisitor& v);
 };
 
 /// A vertical rectangle that can be touched from its front. Frame F: z_F points out of the front,
 /// y_F up, x_F = z_W x z_F. It may turn about the vertical through its origin.
 struct Face {
-  Vector3 p_WF = Vector3::Zero();       ///< origin, on the floor [m]
+  Vector3 p_WF = Vector3::Zero();  ///< origin, on the floor [m]
   Matrix3 R_WF = Matrix3::Identity();
-  double rate = 0;                      ///< angular velocity about z_W [rad/s]
-  double x_low = 0, x_high = 0;         ///< extent along x_F [m]
-  double height = 0;                    ///< extent along y_F, from zero [m]
+  double rate = 0;               ///< angular velocity about z_W [rad/s]
+  double x_low = 0, x_high = 0;  ///< extent along x_F [m]
+  double height = 0;             ///< extent along y_F, from zero [m]
 };
 
 /// Axes of a face whose front looks along (cos heading, sin heading, 0).
@@ -35,11 +34,12 @@ Matrix3 faceAxes(double heading);
 /// What a face does to a point at one instant.
 struct Touch {
   ContactPhase phase = ContactPhase::kNone;
-  Vector3 force_W = Vector3::Zero();   ///< on the point [N]
-  Vector3 foot_W = Vector3::Zero();    ///< of the point on the face; meaningful in contact [m]
-  Eigen::Vector2d slip = Eigen::Vector2d::Zero();   ///< velocity of the point along x_F, y_F [m/s]
-  Eigen::Vector2d limit = Eigen::Vector2d::Zero();  ///< `stretch` brought back to what friction holds [m]
-  double stored = 0;  ///< energy in the springs [J]
+  Vector3 force_W = Vector3::Zero();  ///< on the point [N]
+  Vector3 foot_W = Vector3::Zero();   ///< of the point on the face; meaningful in contact [m]
+  Eigen::Vector2d slip = Eigen::Vector2d::Zero();  ///< velocity of the point along x_F, y_F [m/s]
+  Eigen::Vector2d limit =
+      Eigen::Vector2d::Zero();  ///< `stretch` brought back to what friction holds [m]
+  double stored = 0;            ///< energy in the springs [J]
 };
 
 /// The point is in contact when it lies behind the front by no more than kThickness, within the

@@ -6,70 +6,88 @@
 
 #include <fmt/format.h>
 
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 namespace {
 
 constexpr const char* kJointNames[] = {"wheel_1", "wheel_2", "wheel_3", "arm_1", "arm_2", "arm_3"};
 
-int readJoint(ConfigReader& in, const char* key, bool wheels_only) {
-  if (wheels_only) return in.choice<int>(key, {{"wheel_1", 0}, {"wheel_2", 1}, {"wheel_3", 2}});
-  return in.choice<int>(key, {{"wheel_1", 0},
-                              {"wheel_2", 1},
-                              {"wheel_3", 2},
-                              {"arm_1", 3},
-                              {"arm_2", 4},
-                              {"arm_3", 5}});
-}
-
-void readSpikes(ConfigReader& in, Fault& f) {
-  f.signal = in.choice<Fault::Signal>("signal", {{"gyro", Fault::Signal::kGyro},
-                                                 {"accel", Fault::Signal::kAccel},
-                                                 {"joint_angle", Fault::Signal::kJoint}});
-  if (f.signal == Fault::Signal::kJoint) f.joint = readJoint(in, "joint", false);
-  f.size_sigma = in.numberOr("size_sigma", f.size_sigma, {0, 1e6});
-  f.share = in.numberOr("share", f.share, {0, 1});
-}
-
-Fault readFault(ConfigReader& in) {
-  Fault f;
-  f.kind = in.choice<Fault::Kind>("kind", {{"imu_gap", Fault::Kind::kImuGap},
-                                           {"encoder_stuck", Fault::Kind::kEncoderStuck},
-                                           {"spikes", Fault::Kind::kSpikes},
-                                           {"wheel_slip", Fault::Kind::kWheelSlip}});
-  f.start = kSimStart + in.duration("start_s", {0, 1e6});
-  f.duration = in.duration("duration_s", {kTiny, 1e6});
-  switch (f.kind) {
-    case Fault::Kind::kImuGap: break;
-    case Fault::Kind::kEncoderStuck: f.joint = readJoint(in, "joint", false); break;
-    case Fault::Kind::kSpikes: readSpikes(in, f); break;
-    case Fault::Kind::kWheelSlip:
-      f.joint = readJoint(in, "joint", true);
-      f.traction_torque = in.numberOr("traction_Nm", f.traction_torque, {0, 10});
-      break;
-  }
-  in.finish();
-  return f;
+int readJoint(ConfigReader& in, bool wheels_only) {
+  if (wheels_only) return in.choice<int>("joint", {{"wheel_1", 0}, {"wheel_2", 1}, {"wheel_3", 2}});
+  return in.choice<int>(
+      "joint",
+      {{"wheel_1", 0}, {"wheel_2", 1}, {"wheel_3", 2}, {"arm_1", 3}, {"arm_2", 4}, {"arm_3", 5}});
 }
 
 }  // namespace
 
 std::string toText(const Fault& f) {
   switch (f.kind) {
-    case Fault::Kind::kImuGap: return "imu_gap";
-    case Fault::Kind::kEncoderStuck: return fmt::format("encoder_stuck {}", kJointNames[f.joint]);
-    case Fault::Kind::kWheelSlip: return fmt::format("wheel_slip {}", kJointNames[f.joint]);
-    case Fault::Kind::kSpikes: break;
+    case Fault::Kind::kImuGap:
+      return "imu_gap";
+    case Fault::Kind::kEncoderStuck:
+      return fmt::format("encoder_stuck {}", kJointNames[f.joint]);
+    case Fault::Kind::kWheelSlip:
+      return fmt::format("wheel_slip {}", kJointNames[f.joint]);
+    case Fault::Kind::kSpikes:
+      break;
   }
   if (f.signal == Fault::Signal::kJoint) return fmt::format("spikes {}", kJointNames[f.joint]);
   return f.signal == Fault::Signal::kGyro ? "spikes gyro" : "spikes accel";
 }
 
+void Fault::describe(ConfigVisitor& v, FaultKeys keys) {
+  v.choice(must("kind", "what goes wrong"), kind,
+           {{"imu_gap", Kind::kImuGap},
+            {"encoder_stuck", Kind::kEncoderStuck},
+            {"spikes", Kind::kSpikes},
+            {"wheel_slip", Kind::kWheelSlip}});
+  SimDuration since = start - kSimStart;
+  v.duration(must("start_s", "when it sets in"), since, {0, 1e6});
+  start = kSimStart + since;
+  v.duration(must("duration_s", "how long it lasts"), duration, {kTiny, 1e6});
+
+  // Where a kind needs a key it has to be there; among the keys of every kind it may be. So signal
+  // and joint are no plain choices: those would have a default.
+  const bool every = keys == FaultKeys::kOfEveryKind;
+  const bool spikes = kind == Kind::kSpikes, slip = kind == Kind::kWheelSlip;
+  if (every || spikes) {
+    v.other({"signal", "of which single values are far off, with spikes", !every},
+            "one of gyro, accel, joint_angle; needed with spikes", [&](ConfigReader& in) {
+              signal = in.choice<Signal>("signal", {{"gyro", Signal::kGyro},
+                                                    {"accel", Signal::kAccel},
+                                                    {"joint_angle", Signal::kJoint}});
+            });
+  }
+  if (every || kind == Kind::kEncoderStuck || slip || (spikes && signal == Signal::kJoint)) {
+    v.other({"joint", "whose encoder is stuck or spoiled, or wheel that slips", !every},
+            "one of wheel_1, wheel_2, wheel_3, arm_1, arm_2, arm_3; needed with encoder_stuck, "
+            "wheel_slip (wheels only) and spikes of joint_angle",
+            [&](ConfigReader& in) { joint = readJoint(in, slip); });
+  }
+  if (every || spikes) {
+    v.number(may("size_sigma", "of spikes, in standard deviations of the sensor's own noise"),
+             size_sigma, {0, 1e6});
+    v.number(may("share", "of the samples that spikes spoil"), share, {0, 1});
+  }
+  if (every || slip) {
+    v.number(may("traction_Nm", "what a slipping wheel can still bring onto the ball"),
+             traction_torque, {0, 10});
+  }
+}
+
+void describeFaults(ConfigVisitor& v, std::vector<Fault>& faults, FaultKeys keys) {
+  v.list(may("faults", "what goes wrong, each for some time"), [&](ConfigVisitor& in) {
+    faults.emplace_back();
+    faults.back().describe(in, keys);
+  });
+}
+
 std::vector<Fault> readFaults(ConfigReader& plant) {
   std::vector<Fault> faults;
-  if (!plant.has("faults")) return faults;
-  for (ConfigReader& in : plant.list("faults")) faults.push_back(readFault(in));
+  ConfigReading reading(plant);
+  describeFaults(reading, faults, FaultKeys::kOfItsKind);
   return faults;
 }
 

@@ -13,6 +13,10 @@ namespace ballbot {
 
 class ConfigNode;
 class ConfigReader;
+class ConfigVisitor;
+
+/// Which further keys go with a fault depends on its kind; a reference has to tell all.
+enum class FaultKeys { kOfItsKind, kOfEveryKind };
 
 /// What goes wrong, and when: from `start` for `duration`. Faults of sensors are in what is
 /// reported; the drives' own loops keep reading their encoders.
@@ -28,11 +32,13 @@ struct Fault {
   Kind kind = Kind::kImuGap;
   SimTime start{};
   SimDuration duration{};
-  int joint = 0;                   ///< stuck or spoiled encoder, slipping wheel
-  Signal signal = Signal::kGyro;   ///< of spikes
-  double size_sigma = 100;         ///< spikes in standard deviations of the sensor's own noise
-  double share = 0.02;             ///< of the samples that are spoiled
-  double traction_torque = 0.2;    ///< what a slipping wheel can still bring onto the ball [N m]
+  int joint = 0;                  ///< stuck or spoiled encoder, slipping wheel
+  Signal signal = Signal::kGyro;  ///< of spikes
+  double size_sigma = 100;        ///< spikes in standard deviations of the sensor's own noise
+  double share = 0.02;            ///< of the samples that are spoiled
+  double traction_torque = 0.2;   ///< what a slipping wheel can still bring onto the ball [N m]
+
+  void describe(ConfigVisitor& v, FaultKeys keys);
 
   SimTime end() const { return start + duration; }
   bool activeAt(SimTime t) const { return start <= t && t < end(); }
@@ -41,7 +47,9 @@ struct Fault {
 /// In the words of a configuration: "encoder_stuck wheel_2".
 std::string toText(const Fault& fault);
 
-/// Reads `faults:` of the `plant:` section. @throw InputError with file, line and column
+/// `faults:` of the `plant:` section; those read are appended.
+void describeFaults(ConfigVisitor& v, std::vector<Fault>& faults, FaultKeys keys);
+/// @throw InputError with file, line and column
 std::vector<Fault> readFaults(ConfigReader& plant);
 /// The faults of a scenario, for whoever draws them. `scenario` is the whole tree.
 std::vector<Fault> scheduledFaults(const ConfigNode& scenario);
@@ -90,8 +98,9 @@ class FaultInjector {
   double joint_sigma_;                 ///< of counting [rad]
 
   JointVector held_angle_ = JointVector::Zero();
-  JointVector held_since_ = JointVector::Constant(-1);  ///< stuck since then; negative: it is not [s]
-  Imu::Sample delivered_;                               ///< the last one that arrived
+  JointVector held_since_ =
+      JointVector::Constant(-1);  ///< stuck since then; negative: it is not [s]
+  Imu::Sample delivered_;         ///< the last one that arrived
 };
 
 }  // namespace ballbot

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 namespace {
@@ -15,14 +15,15 @@ double tanhShare(double x) { return x < 1e-4 ? 1 - x * x / 3 : std::tanh(x) / x;
 
 }  // namespace
 
-FloorContactParameters FloorContactParameters::read(ConfigReader& in) {
-  FloorContactParameters p;
-  p.stiffness = in.numberOr("stiffness_N_per_m1_5", p.stiffness, {1e4, 1e12});
-  p.dissipation = in.numberOr("dissipation_s_per_m", p.dissipation, {0, 100});
-  p.friction = in.numberOr("friction", p.friction, {0, 10});
-  p.slip_velocity = in.numberOr("slip_velocity_m_per_s", p.slip_velocity, {1e-5, 1});
-  in.finish();
-  return p;
+void FloorContactParameters::describe(ConfigVisitor& v) {
+  v.number(may("stiffness_N_per_m1_5", "of the floor: force per depth to the power of 3/2"),
+           stiffness, {1e4, 1e12});
+  v.number(may("dissipation_s_per_m",
+               "of the floor: at an impact speed v the ball rebounds with about 1 - dissipation v"),
+           dissipation, {0, 100});
+  v.number(may("friction", "coefficient of friction between ball and floor"), friction, {0, 10});
+  v.number(may("slip_velocity_m_per_s", "slip at which three quarters of the friction are reached"),
+           slip_velocity, {1e-5, 1});
 }
 
 FloorLoad FloorContact::load(double height, const Vector3& v_WK_W, const Vector3& w_WK_W) const {

@@ -4,7 +4,7 @@
 
 namespace ballbot {
 
-class ConfigReader;
+class ConfigVisitor;
 
 /// A ball that gives way on a level floor, after Hunt and Crossley (1975), with their damping that
 /// grows from nothing at touch and so makes no jump there:
@@ -20,8 +20,7 @@ struct FloorContactParameters {
   double friction = 0.8;        ///< mu
   double slip_velocity = 0.01;  ///< s0 [m/s]
 
-  /// @throw InputError for bad keys or values.
-  static FloorContactParameters read(ConfigReader& in);
+  void describe(ConfigVisitor& v);
 };
 
 /// Force and torque of the floor on a ball, about its centre, in W [N, N m].

@@ -1,18 +1,16 @@
 #include "plant/motion_capture.hpp"
 
 #include "core/angle.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 
-MotionCaptureParameters MotionCaptureParameters::read(ConfigReader in) {
-  MotionCaptureParameters p;
-  p.period = in.durationOr("period_ms", p.period, {0.1, 1e4});
-  p.delay = in.durationOr("delay_ms", p.delay, {0, 1e4});
-  p.position_noise = in.numberOr("position_noise_m", p.position_noise, {0, kInf});
-  p.yaw_noise = kRadPerDeg * in.numberOr("yaw_noise_deg", p.yaw_noise / kRadPerDeg, {0, kInf});
-  in.finish();
-  return p;
+void MotionCaptureParameters::describe(ConfigVisitor& v) {
+  v.duration(may("period_ms", "from one pose to the next"), period, {0.1, 1e4});
+  v.duration(may("delay_ms", "from the moment a pose holds to its arrival"), delay, {0, 1e4});
+  v.number(may("position_noise_m", "standard deviation of the position per axis"), position_noise,
+           {0, kInf});
+  v.number(may("yaw_noise_deg", "standard deviation of the yaw"), yaw_noise, {0, kInf}, kRadPerDeg);
 }
 
 MotionCapture::MotionCapture(const std::optional<MotionCaptureParameters>& p, std::uint64_t seed)

@@ -10,16 +10,16 @@
 
 namespace ballbot {
 
-class ConfigReader;
+class ConfigVisitor;
 
 struct MotionCaptureParameters {
   SimDuration period{10'000'000};
-  SimDuration delay{30'000'000};   ///< from the moment a pose holds to its arrival
-  double position_noise = 0.002;   ///< standard deviation per axis [m]
-  double yaw_noise = 0.0035;       ///< [rad]
+  SimDuration delay{30'000'000};  ///< from the moment a pose holds to its arrival
+  double position_noise = 0.002;  ///< standard deviation per axis [m]
+  double yaw_noise = 0.0035;      ///< [rad]
 
-  /// The `motion_capture:` of the `plant:` section. @throw InputError
-  static MotionCaptureParameters read(ConfigReader in);
+  /// The `motion_capture:` of the `plant:` section.
+  void describe(ConfigVisitor& v);
 };
 
 /// An outside system that sees the robot: position of the ball centre and yaw of the base in W, at

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/angle.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "core/error.hpp"
 
 namespace ballbot {
@@ -11,65 +11,53 @@ namespace {
 
 constexpr int kMaxDelayTicks = 1000;
 
-PlantFidelity readFidelity(ConfigReader in) {
-  PlantFidelity f;
-  f.multibody = in.choiceOr("multibody", f.multibody,
-                            {{"full", MultibodyStructure::kFull},
-                             {"reduced_wheels", MultibodyStructure::kReducedWheels}});
-  f.actuators = in.choiceOr(
-      "actuators", f.actuators,
-      {{"ideal", ActuatorLevel::kIdeal}, {"series_elastic", ActuatorLevel::kSeriesElastic}});
-  f.contact = in.choiceOr("contact", f.contact,
-                          {{"rolling", ContactLevel::kRolling},
-                           {"rolling_with_spin_friction", ContactLevel::kRollingWithSpinFriction},
-                           {"compliant", ContactLevel::kCompliant}});
-  if (f.contact == ContactLevel::kCompliant && f.multibody != MultibodyStructure::kFull) {
-    throw InputError(
-        fmt::format("{} is compliant, for which wheels must be bodies: set "
-                    "fidelity.multibody to full",
-                    in.at("contact")));
-  }
-  f.noisy_sensors = in.choiceOr("sensors", f.noisy_sensors, {{"perfect", false}, {"noisy", true}});
-  f.encoder_quantisation = in.booleanOr("encoder_quantisation", f.encoder_quantisation);
-  f.friction = in.booleanOr("friction", f.friction);
-  f.saturation = in.booleanOr("saturation", f.saturation);
-  f.speed_limit = in.booleanOr("speed_limit", f.speed_limit);
-  f.transport_delay = in.booleanOr("transport_delay", f.transport_delay);
-  in.finish();
-  return f;
+void describePlantSection(ConfigVisitor& v, PlantConfig& c, FaultKeys fault_keys) {
+  v.section(may("fidelity", "how true to the robot the plant is; each switch can be changed alone"),
+            [&](ConfigVisitor& in) { c.fidelity.describe(in); });
+  v.section(may("spin_friction", "of the floor on the ball's spin about the vertical"),
+            [&](ConfigVisitor& in) { c.spin_friction.describe(in); });
+  v.section(may("compliant_contact", "floor and integration of a contact that is compliant"),
+            [&](ConfigVisitor& in) {
+              in.number(may("tolerance", "error per integration step, relative to 1 + the size"),
+                        c.integration_tolerance, {1e-12, 1e-2});
+              c.floor.describe(in);
+            });
+  v.section(may("wheel_loop_insertion",
+                "gain and delay put into the loop at the wheel torques, to find out what it takes"),
+            [&](ConfigVisitor& in) { c.wheel_loop.describe(in); });
+  v.duration(may("substep_us", "longest integration step"), c.substep, {1, 10'000});
+  v.duration(may("drive_period_us", "tick of the drives' torque loops and joint PD"),
+             c.drive_period, {1, 100'000});
+  v.integer(may("transport_delay_ticks", "drive ticks from command to drive"),
+            c.transport_delay_ticks, {0, kMaxDelayTicks});
+  v.boolean(may("leak_compensation", "drives feed their rotor's inertia and drag forward"),
+            c.leak_compensation);
+  v.vector(may("base_com_offset_m",
+               "how far off the base's centre of mass is from what the controller's model says"),
+           c.base_com_offset, {-0.1, 0.1});
+  v.section(may("motion_capture", "cameras that report the ball's place and the base's yaw"),
+            [&](ConfigVisitor& in) { c.motion_capture.emplace().describe(in); });
+  describeFaults(v, c.faults, fault_keys);
+}
+
+void describeEnvironmentSection(ConfigVisitor& v, PlantConfig& c) {
+  describePushes(v, c.pushes, c.robot);
+  c.surroundings.describe(v);
+  v.number(may("payload_kg", "point mass at the end-effector; instead of robot.payload_mass_kg"),
+           c.robot.payload_mass, {0, 100});
 }
 
 void readPlantSection(ConfigReader in, PlantConfig& c) {
-  if (in.has("fidelity")) c.fidelity = readFidelity(in.child("fidelity"));
-  if (in.has("spin_friction")) {
-    ConfigReader spin = in.child("spin_friction");
-    c.spin_friction.torque = spin.number("torque_Nm", {0, kInf});
-    c.spin_friction.smoothing = spin.number("smoothing_rad_per_s", {1e-4, kInf});
-    spin.finish();
+  ConfigReading reading(in);
+  describePlantSection(reading, c, FaultKeys::kOfItsKind);
+  c.robot.base.p_LLcm_L += c.base_com_offset;
+  if (c.fidelity.contact == ContactLevel::kCompliant &&
+      c.fidelity.multibody != MultibodyStructure::kFull) {
+    throw InputError(
+        fmt::format("{} is compliant, for which wheels must be bodies: set "
+                    "fidelity.multibody to full",
+                    in.child("fidelity").at("contact")));
   }
-  if (in.has("compliant_contact")) {
-    ConfigReader contact = in.child("compliant_contact");
-    c.integration_tolerance = contact.numberOr("tolerance", c.integration_tolerance, {1e-12, 1e-2});
-    c.floor = FloorContactParameters::read(contact);
-  }
-  if (in.has("wheel_loop_insertion")) {
-    ConfigReader insertion = in.child("wheel_loop_insertion");
-    c.wheel_loop.gain = insertion.numberOr("gain", c.wheel_loop.gain, {0, 1000});
-    c.wheel_loop.delay_ticks =
-        insertion.integerOr("delay_ticks", c.wheel_loop.delay_ticks, {0, kMaxDelayTicks});
-    insertion.finish();
-  }
-  c.substep = in.durationOr("substep_us", c.substep, {1, 10'000});
-  c.drive_period = in.durationOr("drive_period_us", c.drive_period, {1, 100'000});
-  c.transport_delay_ticks =
-      in.integerOr("transport_delay_ticks", c.transport_delay_ticks, {0, kMaxDelayTicks});
-  c.leak_compensation = in.booleanOr("leak_compensation", c.leak_compensation);
-  const auto offset = in.numbersOr<3>("base_com_offset_m", {0, 0, 0}, {-0.1, 0.1});
-  c.robot.base.p_LLcm_L += Vector3(offset[0], offset[1], offset[2]);
-  if (in.has("motion_capture")) {
-    c.motion_capture = MotionCaptureParameters::read(in.child("motion_capture"));
-  }
-  c.faults = readFaults(in);
   for (const Fault& fault : c.faults) {
     if (fault.kind != Fault::Kind::kWheelSlip) continue;
     if (c.fidelity.multibody != MultibodyStructure::kFull) {
@@ -89,34 +77,75 @@ void readPlantSection(ConfigReader in, PlantConfig& c) {
 }
 
 void readInitial(ConfigReader in, PlantConfig& c) {
-  RobotPose& pose = c.initial.pose;
-  pose.pitch = kRadPerDeg * in.numberOr("pitch_deg", 0, {-60, 60});
-  pose.roll = kRadPerDeg * in.numberOr("roll_deg", 0, {-60, 60});
-  pose.yaw = kRadPerDeg * in.numberOr("yaw_deg", 0, {-180, 180});
-  c.initial.release = kSimStart + in.durationOr("release_s", SimDuration::zero(), {0, 100});
-  if (in.has("arm_rad")) {
-    const auto arm = in.numbers<kArmJointCount>("arm_rad");
-    for (int j = 0; j < kArmJointCount; ++j) {
-      const ArmLink& link = c.robot.arm[j];
-      if (arm[j] < link.lower_limit || arm[j] > link.upper_limit) {
-        throw InputError(fmt::format("{} puts '{}' at {} rad, must be between {} and {}",
-                                     in.at("arm_rad"), link.name, arm[j], link.lower_limit,
-                                     link.upper_limit));
-      }
-      pose.arm[j] = arm[j];
-    }
-  }
+  ConfigReading reading(in);
+  c.initial.describe(reading, c.robot);
   in.finish();
 }
 
 void readEnvironment(ConfigReader in, PlantConfig& c) {
-  c.pushes = readPushes(in, c.robot);
-  c.surroundings = SurroundingsParameters::read(in);
-  c.robot.payload_mass = in.numberOr("payload_kg", c.robot.payload_mass, {0, 100});
+  ConfigReading reading(in);
+  describeEnvironmentSection(reading, c);
   in.finish();
 }
 
 }  // namespace
+
+void PlantFidelity::describe(ConfigVisitor& v) {
+  v.choice(may("multibody", "how the robot is cut into bodies; same motion"), multibody,
+           {{"full", MultibodyStructure::kFull},
+            {"reduced_wheels", MultibodyStructure::kReducedWheels}});
+  v.choice(may("actuators", "torque at once, or through motor, gear and spring"), actuators,
+           {{"ideal", ActuatorLevel::kIdeal}, {"series_elastic", ActuatorLevel::kSeriesElastic}});
+  v.choice(may("contact", "whether the ball may spin about the vertical, and the floor give way"),
+           contact,
+           {{"rolling", ContactLevel::kRolling},
+            {"rolling_with_spin_friction", ContactLevel::kRollingWithSpinFriction},
+            {"compliant", ContactLevel::kCompliant}});
+  v.choice(may("sensors", "exact values, or noise, bias and quantisation"), noisy_sensors,
+           {{"perfect", false}, {"noisy", true}});
+  v.boolean(may("encoder_quantisation", "whole encoder counts; with noisy sensors"),
+            encoder_quantisation);
+  v.boolean(may("friction", "viscous, Coulomb and Stribeck friction at the rotors"), friction);
+  v.boolean(may("saturation", "motor torque ends at its peak"), saturation);
+  v.boolean(may("speed_limit", "no torque left beyond the motor's speed limit"), speed_limit);
+  v.boolean(may("transport_delay", "commands are on their way for some drive ticks"),
+            transport_delay);
+}
+
+void SpinFriction::describe(ConfigVisitor& v) {
+  v.number(must("torque_Nm", "of the floor on a ball that spins"), torque, {0, kInf});
+  v.number(must("smoothing_rad_per_s", "spin at which three quarters of the torque are reached"),
+           smoothing, {1e-4, kInf});
+}
+
+void LoopInsertion::describe(ConfigVisitor& v) {
+  v.number(may("gain", "factor on the torque that the wheels' joint loops want"), gain, {0, 1000});
+  v.integer(may("delay_ticks", "drive ticks by which that torque comes later"), delay_ticks,
+            {0, kMaxDelayTicks});
+}
+
+void InitialCondition::describe(ConfigVisitor& v, const RobotParameters& robot) {
+  v.number(may("pitch_deg", "pitch at the start"), pose.pitch, {-60, 60}, kRadPerDeg);
+  v.number(may("roll_deg", "roll at the start"), pose.roll, {-60, 60}, kRadPerDeg);
+  v.number(may("yaw_deg", "yaw at the start"), pose.yaw, {-180, 180}, kRadPerDeg);
+  SimDuration held = release - kSimStart;
+  v.duration(may("release_s", "until then a stand holds the robot still"), held, {0, 100});
+  release = kSimStart + held;
+  // No plain list: what stands in its place are the robot's own angles, and so are the limits.
+  v.other(may("arm_rad", "angles of the arm at the start; without it robot.nominal_arm_rad"),
+          "list of 3 numbers, within the limits of their joints", [&](ConfigReader& in) {
+            const auto arm = in.numbers<kArmJointCount>("arm_rad");
+            for (int j = 0; j < kArmJointCount; ++j) {
+              const ArmLink& link = robot.arm[j];
+              if (arm[j] < link.lower_limit || arm[j] > link.upper_limit) {
+                throw InputError(fmt::format("{} puts '{}' at {} rad, must be between {} and {}",
+                                             in.at("arm_rad"), link.name, arm[j], link.lower_limit,
+                                             link.upper_limit));
+              }
+              pose.arm[j] = arm[j];
+            }
+          });
+}
 
 PlantConfig readPlantConfig(const ConfigNode& scenario) {
   ConfigReader in(scenario);
@@ -126,12 +155,33 @@ PlantConfig readPlantConfig(const ConfigNode& scenario) {
   c.robot = readRobot(robot);
   c.actuators = readActuators(robot);
   ConfigReader sensors = robot.child("sensors");
-  c.sensors = SensorParameters::read(sensors);
+  readDescribed(sensors, c.sensors);
+  sensors.finish();
   c.initial.pose.arm = c.robot.nominal_arm;
   if (in.has("plant")) readPlantSection(in.child("plant"), c);
   if (in.has("initial")) readInitial(in.child("initial"), c);
   if (in.has("environment")) readEnvironment(in.child("environment"), c);
   return c;
+}
+
+void describePlant(ConfigVisitor& v) {
+  PlantConfig c;
+  describePlantSection(v, c, FaultKeys::kOfEveryKind);
+}
+
+void describeInitial(ConfigVisitor& v) {
+  PlantConfig c;
+  c.initial.describe(v, c.robot);
+}
+
+void describeEnvironment(ConfigVisitor& v) {
+  PlantConfig c;
+  describeEnvironmentSection(v, c);
+}
+
+void describeSensors(ConfigVisitor& v) {
+  SensorParameters p;
+  p.describe(v);
 }
 
 }  // namespace ballbot

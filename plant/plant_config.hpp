@@ -16,7 +16,7 @@
 namespace ballbot {
 
 class ConfigNode;
-class ConfigReader;
+class ConfigVisitor;
 
 enum class ActuatorLevel { kIdeal, kSeriesElastic };
 enum class ContactLevel { kRolling, kRollingWithSpinFriction, kCompliant };
@@ -33,6 +33,8 @@ struct PlantFidelity {
   bool saturation = true;
   bool speed_limit = true;
   bool transport_delay = true;
+
+  void describe(ConfigVisitor& v);
 };
 
 /// Friction torque of the floor on the ball's spin s about the vertical: -torque tanh(s /
@@ -41,6 +43,8 @@ struct PlantFidelity {
 struct SpinFriction {
   double torque = 0.4;      ///< [N m]
   double smoothing = 0.02;  ///< [rad/s]
+
+  void describe(ConfigVisitor& v);
 };
 
 /// A gain and a delay put into the loop at the wheel torques, to find out how much of either the
@@ -49,6 +53,7 @@ struct LoopInsertion {
   double gain = 1;
   int delay_ticks = 0;  ///< ticks of the drives
 
+  void describe(ConfigVisitor& v);
   bool present() const { return gain != 1 || delay_ticks > 0; }
 };
 
@@ -56,6 +61,9 @@ struct LoopInsertion {
 struct InitialCondition {
   RobotPose pose;
   SimTime release{};
+
+  /// @param robot  within whose limits the arm has to be
+  void describe(ConfigVisitor& v, const RobotParameters& robot);
 };
 
 /// Everything the plant is made of.
@@ -65,13 +73,14 @@ struct PlantConfig {
   SensorParameters sensors;
   PlantFidelity fidelity;
   SpinFriction spin_friction;
-  FloorContactParameters floor;         ///< of a compliant contact
-  double integration_tolerance = 1e-6;  ///< of a compliant contact, per step
-  SimDuration substep{400'000};         ///< longest integration step
-  SimDuration drive_period{400'000};    ///< of the drives' torque loops
-  int transport_delay_ticks = 2;        ///< drive ticks from command to drive
-  bool leak_compensation = false;       ///< of the drives, docs/theory/actuator.md
-  LoopInsertion wheel_loop;             ///< between the wheels' wanted torque and their torque loop
+  FloorContactParameters floor;               ///< of a compliant contact
+  double integration_tolerance = 1e-6;        ///< of a compliant contact, per step
+  SimDuration substep{400'000};               ///< longest integration step
+  SimDuration drive_period{400'000};          ///< of the drives' torque loops
+  int transport_delay_ticks = 2;              ///< drive ticks from command to drive
+  bool leak_compensation = false;             ///< of the drives, docs/theory/actuator.md
+  Vector3 base_com_offset = Vector3::Zero();  ///< that `robot` has from this section [m]
+  LoopInsertion wheel_loop;  ///< between the wheels' wanted torque and their torque loop
   InitialCondition initial;
   std::vector<Push> pushes;
   std::vector<Fault> faults;
@@ -84,5 +93,12 @@ struct PlantConfig {
 /// sections are left to those who use them.
 /// @throw InputError with file, line and column.
 PlantConfig readPlantConfig(const ConfigNode& scenario);
+
+/// All keys that are read of the sections `plant:`, `initial:` and `environment:` and of the
+/// `sensors:` of `robot:`, with their defaults; for references and the like.
+void describePlant(ConfigVisitor& v);
+void describeInitial(ConfigVisitor& v);
+void describeEnvironment(ConfigVisitor& v);
+void describeSensors(ConfigVisitor& v);
 
 }  // namespace ballbot

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/angle.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 namespace {
@@ -24,29 +24,46 @@ double quantized(double value, double quantum) noexcept {
   return quantum > 0 ? quantum * std::nearbyint(value / quantum) : value;
 }
 
-SensorParameters SensorParameters::read(ConfigReader& in) {
+void ImuParameters::describe(ConfigVisitor& v) {
   const Range not_negative{0, kInf};
-  SensorParameters p;
-  ConfigReader imu = in.child("imu");
-  p.imu.period = imu.duration("period_ms", {1e-3, 1000});
-  p.imu.gyro_noise = imu.number("gyro_noise_rad_per_s_per_sqrtHz", not_negative);
-  p.imu.accel_noise = imu.number("accel_noise_m_per_s2_per_sqrtHz", not_negative);
-  p.imu.gyro_bias_walk = imu.number("gyro_bias_walk_rad_per_s_per_sqrts", not_negative);
-  p.imu.accel_bias_walk = imu.number("accel_bias_walk_m_per_s2_per_sqrts", not_negative);
-  p.imu.gyro_turn_on_bias = imu.number("gyro_turn_on_bias_rad_per_s", not_negative);
-  p.imu.accel_turn_on_bias = imu.number("accel_turn_on_bias_m_per_s2", not_negative);
-  p.imu.gyro_resolution = imu.number("gyro_resolution_rad_per_s", not_negative);
-  p.imu.accel_resolution = imu.number("accel_resolution_m_per_s2", not_negative);
-  imu.finish();
-  ConfigReader encoders = in.child("encoders");
-  p.encoders.motor_resolution = kRadPerDeg * encoders.number("motor_resolution_deg", not_negative);
-  p.encoders.joint_resolution = kRadPerDeg * encoders.number("joint_resolution_deg", not_negative);
-  p.encoders.motor_velocity_filter = encoders.numberOr(
-      "motor_velocity_filter_Hz", p.encoders.motor_velocity_filter, {kTiny, kInf});
-  p.encoders.joint_velocity_filter = encoders.number("velocity_filter_Hz", {kTiny, kInf});
-  encoders.finish();
-  in.finish();
-  return p;
+  v.duration(must("period_ms", "from one sample to the next; a sample is the average over it"),
+             period, {1e-3, 1000});
+  v.number(must("gyro_noise_rad_per_s_per_sqrtHz", "density of the gyroscope's white noise"),
+           gyro_noise, not_negative);
+  v.number(must("accel_noise_m_per_s2_per_sqrtHz", "density of the accelerometer's white noise"),
+           accel_noise, not_negative);
+  v.number(must("gyro_bias_walk_rad_per_s_per_sqrts", "random walk of the gyroscope's bias"),
+           gyro_bias_walk, not_negative);
+  v.number(must("accel_bias_walk_m_per_s2_per_sqrts", "random walk of the accelerometer's bias"),
+           accel_bias_walk, not_negative);
+  v.number(must("gyro_turn_on_bias_rad_per_s",
+                "standard deviation of the gyroscope's bias after switching on"),
+           gyro_turn_on_bias, not_negative);
+  v.number(must("accel_turn_on_bias_m_per_s2",
+                "standard deviation of the accelerometer's bias after switching on"),
+           accel_turn_on_bias, not_negative);
+  v.number(must("gyro_resolution_rad_per_s", "quantum of the gyroscope's output, 0 for none"),
+           gyro_resolution, not_negative);
+  v.number(must("accel_resolution_m_per_s2", "quantum of the accelerometer's output, 0 for none"),
+           accel_resolution, not_negative);
+}
+
+void EncoderParameters::describe(ConfigVisitor& v) {
+  v.number(must("motor_resolution_deg", "quantum of the encoder behind the gear, joint side"),
+           motor_resolution, {0, kInf}, kRadPerDeg);
+  v.number(must("joint_resolution_deg", "quantum of the encoder behind the spring"),
+           joint_resolution, {0, kInf}, kRadPerDeg);
+  v.number(may("motor_velocity_filter_Hz", "low-pass on the differenced motor angle"),
+           motor_velocity_filter, {kTiny, kInf});
+  v.number(must("velocity_filter_Hz", "low-pass on the differenced joint angle"),
+           joint_velocity_filter, {kTiny, kInf});
+}
+
+void SensorParameters::describe(ConfigVisitor& v) {
+  v.section(must("imu", "inertial measurement unit: what the device adds to true averages"),
+            [&](ConfigVisitor& in) { imu.describe(in); });
+  v.section(must("encoders", "two per joint, behind the gear and behind the spring"),
+            [&](ConfigVisitor& in) { encoders.describe(in); });
 }
 
 Imu::Imu(const ImuParameters& p, bool noisy, std::uint64_t seed)

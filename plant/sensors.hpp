@@ -9,7 +9,7 @@
 
 namespace ballbot {
 
-class ConfigReader;
+class ConfigVisitor;
 
 /// A sample is the average over the period before it. Standard deviations per axis.
 struct ImuParameters {
@@ -22,6 +22,8 @@ struct ImuParameters {
   double accel_turn_on_bias = 0.03;   ///< [m/s^2]
   double gyro_resolution = 1.065e-3;  ///< quantum of the output, 0 for none [rad/s]
   double accel_resolution = 4.79e-3;  ///< [m/s^2]
+
+  void describe(ConfigVisitor& v);
 };
 
 struct EncoderParameters {
@@ -29,6 +31,8 @@ struct EncoderParameters {
   double joint_resolution = 0;         ///< behind the spring [rad]
   double motor_velocity_filter = 400;  ///< low-pass on the differenced motor angle [Hz]
   double joint_velocity_filter = 80;   ///< low-pass on the differenced joint angle [Hz]
+
+  void describe(ConfigVisitor& v);
 };
 
 struct SensorParameters {
@@ -36,8 +40,7 @@ struct SensorParameters {
   EncoderParameters encoders;
 
   /// The `sensors:` of the `robot:` section.
-  /// @throw InputError for bad keys or values.
-  static SensorParameters read(ConfigReader& in);
+  void describe(ConfigVisitor& v);
 };
 
 /// Nearest multiple of `quantum`; the value itself where the quantum is zero.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/angle.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 
 namespace ballbot {
 namespace {
@@ -15,15 +15,12 @@ using ConstStretchMap = Eigen::Map<const Eigen::Vector2d>;
 
 }  // namespace
 
-WallParameters WallParameters::read(ConfigReader& in) {
-  WallParameters p;
-  const auto foot = in.numbers<2>("foot_m", {-100, 100});
-  p.p_WF << foot[0], foot[1], 0;
-  p.heading = kRadPerDeg * in.number("facing_deg", {-360, 360});
-  p.width = in.numberOr("width_m", p.width, {0.01, 100});
-  p.height = in.numberOr("height_m", p.height, {0.01, 100});
-  in.finish();
-  return p;
+void WallParameters::describe(ConfigVisitor& v) {
+  v.numbers(must("foot_m", "x and y of the middle of its foot"), p_WF.data(), 2, {-100, 100});
+  v.number(must("facing_deg", "where its front looks, about the vertical"), heading, {-360, 360},
+           kRadPerDeg);
+  v.number(may("width_m", "of the wall"), width, {0.01, 100});
+  v.number(may("height_m", "of the wall"), height, {0.01, 100});
 }
 
 Face wallFace(const WallParameters& p) {
@@ -36,28 +33,22 @@ Face wallFace(const WallParameters& p) {
   return face;
 }
 
-SurroundingsParameters SurroundingsParameters::read(ConfigReader& environment) {
-  SurroundingsParameters p;
-  if (environment.has("contact")) {
-    ConfigReader in = environment.child("contact");
-    p.contact = ContactParameters::read(in);
-  }
-  if (environment.has("wall")) {
-    ConfigReader in = environment.child("wall");
-    p.wall = WallParameters::read(in);
-  }
-  if (environment.has("door")) {
-    ConfigReader in = environment.child("door");
-    p.door = DoorParameters::read(in);
-  }
-  return p;
+void SurroundingsParameters::describe(ConfigVisitor& v) {
+  v.section(may("contact", "of the end-effector with wall and door"),
+            [&](ConfigVisitor& in) { contact.describe(in); });
+  v.section(may("wall", "stands still, and can be touched from its front"),
+            [&](ConfigVisitor& in) { wall.emplace().describe(in); });
+  v.section(may("door", "on a vertical hinge, and can be touched from its front"),
+            [&](ConfigVisitor& in) { door.emplace().describe(in); });
 }
 
 SurroundingsParameters surroundingsOf(const ConfigNode& scenario) {
   const ConfigNode* environment = scenario.find("environment");
   if (!environment) return {};
   ConfigReader in(*environment, "environment");
-  return SurroundingsParameters::read(in);
+  SurroundingsParameters p;
+  readDescribed(in, p);
+  return p;
 }
 
 void Surroundings::place(double* s) const {

@@ -7,7 +7,7 @@
 namespace ballbot {
 
 class ConfigNode;
-class ConfigReader;
+class ConfigVisitor;
 
 /// A wall that stands still.
 struct WallParameters {
@@ -15,8 +15,7 @@ struct WallParameters {
   double heading = 0;              ///< where its front looks, about z_W [rad]
   double width = 2, height = 2;    ///< [m]
 
-  /// @throw InputError for bad keys or values.
-  static WallParameters read(ConfigReader& in);
+  void describe(ConfigVisitor& v);
 };
 Face wallFace(const WallParameters& p);
 
@@ -27,8 +26,7 @@ struct SurroundingsParameters {
   std::optional<DoorParameters> door;
 
   /// Keys contact, wall and door of the `environment:` section; all optional.
-  /// @throw InputError for bad keys or values.
-  static SurroundingsParameters read(ConfigReader& environment);
+  void describe(ConfigVisitor& v);
 };
 
 /// The same from a whole scenario, for whoever draws or judges it.

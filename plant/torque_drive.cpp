@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/angle.hpp"
+#include "model/pd_law.hpp"
 
 namespace ballbot {
 namespace {
@@ -23,8 +24,8 @@ TorqueDrive::TorqueDrive(const ActuatorParameters& p, const DriveOptions& option
       filter_share_(1 - std::exp(-filter_rate_ * toSeconds(options.period))) {}
 
 double TorqueDrive::wantedTorque(const DriveCommand& c, const DriveReading& r) {
-  return c.torque + c.stiffness * (c.position - r.joint_angle) +
-         c.damping * (c.velocity - r.joint_velocity);
+  return pdTorque<double>(c.torque, c.stiffness, c.position, c.damping, c.velocity, r.joint_angle,
+                          r.joint_velocity);
 }
 
 double TorqueDrive::tick(double wanted, const DriveReading& r) {

@@ -30,7 +30,6 @@ class StudyFolder {
   const std::string& path() const { return path_; }
   std::string scenarioFile() const { return path_ + "/scenario.yaml"; }
   std::string resultsFolder() const { return path_ + "/results"; }
-  std::string caseFolder(const std::string& id) const { return path_ + "/cases/" + id; }
   std::string file(const std::string& name) const { return path_ + "/" + name; }
 
   /// Everything recorded so far, by case; where a case stands twice, the later one in the order of

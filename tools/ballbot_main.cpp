@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   addRunCommand(program, result);
   addCheckCommand(program, result);
   addCompareCommand(program, result);
+  addExplainCommand(program, result);
   addExportCommand(program, result);
   addEstimateCommand(program, result);
   addPlantCommand(program, result);

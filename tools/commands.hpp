@@ -14,6 +14,7 @@ void addCompareCommand(CLI::App& program, ExitCode& result);
 void addPlantCommand(CLI::App& program, ExitCode& result);
 void addControllerCommand(CLI::App& program, ExitCode& result);
 void addRelayCommand(CLI::App& program, ExitCode& result);
+void addExplainCommand(CLI::App& program, ExitCode& result);
 void addExportCommand(CLI::App& program, ExitCode& result);
 void addEstimateCommand(CLI::App& program, ExitCode& result);
 void addReproduceCommand(CLI::App& program, ExitCode& result);

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/key_unit.hpp"
+
 namespace ballbot {
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/key_unit.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/robot_controller.hpp"
 #include "metrics/limit_margins.hpp"

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "controller/riccati_equation.hpp"
+#include "core/config_visitor.hpp"
 #include "core/error.hpp"
 #include "tests/controller/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
@@ -144,7 +145,8 @@ TEST(LqrWeights, ATorqueMustCostSomething) {
   const ConfigNode tree = parseYaml("{wheel_torque: 0}", "lqr.yaml");
   ConfigReader in(tree);
   try {
-    LqrWeights::read(in);
+    LqrWeights weights;
+    readDescribed(in, weights);
     FAIL() << "no error";
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("wheel_torque is 0, must be more than 0"));

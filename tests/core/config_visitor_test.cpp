@@ -109,7 +109,7 @@ TEST(ConfigListing, HasEveryKeyWithTypeUnitRangeAndDefault) {
   EXPECT_EQ(keys[0].path, "shop.toy.mass_kg");
   EXPECT_TRUE(keys[0].required);
   EXPECT_EQ(keys[0].unit, "kg");
-  EXPECT_EQ(keys[0].fallback, "");
+  EXPECT_EQ(keys[0].fallback, "2");
   EXPECT_EQ(typeText(keys[0]), "number, above 0");
   EXPECT_EQ(typeText(keys[1]), "whole number, 0 to 9");
   EXPECT_EQ(keys[3].fallback, "green");

@@ -142,7 +142,7 @@ TEST(Lifecycle, ASensorValueThatIsNotFiniteIsAFailureOfTheParticipant) {
   Brought brought(S::kStep);
   brought.spring.measureNanFrom(kSimStart + kStepLength);
   EXPECT_EQ(wordsOf<LostParticipantError>([&] { brought.life.doStep(kSimStart, kStepLength, {}); }),
-            "spring: after the step to 0.001000 s: angular velocity, axis y, is nan");
+            "spring: after the step to 0.001000 s: sensors.gyro_WB_B_y is nan");
   EXPECT_EQ(brought.life.state(), S::kFailed);
 }
 

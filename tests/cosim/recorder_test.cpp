@@ -11,7 +11,7 @@
 #include <lcm/lcm.h>
 #include <sys/resource.h>
 
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "core/error.hpp"
 #include "core/yaml_file.hpp"
 #include "cosim/lifecycle.hpp"
@@ -142,7 +142,7 @@ TEST(Recorder, PeriodsComeFromTheConfiguration) {
   const ConfigNode node = parseYaml("sensors_period_ms: 10\ntruth_period_ms: -1\n", "test.yaml");
   ConfigReader in(node);
   RecorderOptions options;
-  options.read(in);
+  readDescribed(in, options);
   in.finish();
   EXPECT_EQ(options.sensors, SimDuration{10'000'000});
   EXPECT_LT(options.truth.count(), 0);

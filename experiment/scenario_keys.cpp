@@ -1,0 +1,129 @@
+#include "experiment/scenario_keys.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "controller/law_factory.hpp"
+#include "core/angle.hpp"
+#include "core/error.hpp"
+#include "core/nearest_word.hpp"
+#include "estimator/estimator_factory.hpp"
+#include "experiment/recording.hpp"
+#include "experiment/scenario.hpp"
+#include "model/robot_reader.hpp"
+#include "plant/plant_config.hpp"
+
+namespace ballbot {
+namespace {
+
+/// One that balances: defaults of the controller are made for a robot. Its torque limits and pose
+/// at rest stand where a scenario's own robot has others.
+RobotParameters plainRobot() {
+  RobotParameters robot;
+  robot.ball = {0.125, 4, 0.04};
+  robot.wheels.radius = 0.05;
+  robot.wheels.mass = 0.5;
+  robot.wheels.spin_inertia = robot.wheels.transverse_inertia = 1e-3;
+  robot.wheels.contact_zenith = 45 * kRadPerDeg;
+  robot.wheels.azimuth = {0, 120 * kRadPerDeg, -120 * kRadPerDeg};
+  const auto body = [](double mass, double height) {
+    return BodyInertia{mass, height * Vector3::UnitZ(), 0.1 * mass * Matrix3::Identity()};
+  };
+  robot.base = body(15, 0.3);
+  for (ArmLink& link : robot.arm) {
+    link.p_PJ_P = 0.2 * Vector3::UnitZ();
+    link.axis = Vector3::UnitY();
+    link.inertia = body(1, 0.1);
+    link.lower_limit = -3;
+    link.upper_limit = 3;
+  }
+  robot.arm[0].axis = Vector3::UnitZ();
+  robot.p_A3E = 0.2 * Vector3::UnitZ();
+  robot.wheel_torque_limit = 4;
+  robot.arm_torque_limit = 18;
+  return robot;
+}
+
+void describeScenario(ConfigVisitor& v) {
+  Scenario s;
+  int seed = 1;
+  s.tree = ConfigNode::map({});
+  v.text(must("name", "of the run's folder"), s.name);
+  v.text(may("summary", "a line for people"), s.summary);
+  v.duration(must("duration_s", "simulated time"), s.duration, {1e-3, 1e5});
+  v.integer(may("seed", "of every noise source"), seed, {0, kInf});
+  v.section(must("robot", "what it is made of"), [](ConfigVisitor& in) {
+    describeRobot(in);
+    in.section(may("sensors", "figures of its sensors"), describeSensors);
+  });
+  v.section(must("plant", "how the robot is simulated"), describePlant);
+  v.section(must("estimator", "how the controller makes a state of measurements"),
+            describeEstimator);
+  v.section(must("controller", "what makes commands of states"),
+            [](ConfigVisitor& in) { describeController(in, plainRobot()); });
+  v.section(may("rates", "how often each part of the controller runs"),
+            [&](ConfigVisitor& in) { s.rates.describe(in); });
+  v.section(may("initial", "where the run begins"), describeInitial);
+  v.section(may("environment", "pushes, a door, a wall, a payload"), describeEnvironment);
+  v.section(may("recording", "what goes into the log, and how often"),
+            [](ConfigVisitor& in) { Recording().describe(in); });
+  v.other(may("requirements", "what the run must reach to pass"),
+          "mapping from metrics to {below: number, above: number}", [](ConfigReader&) {});
+  v.other(may("fmus", "other people's models, in the plant's place or connected to it"),
+          "list of {name, file, parameters, connections}, see docs/fmu.md", [](ConfigReader&) {});
+}
+
+/// "pushes.3.force_N" as the listing has it: "pushes.0.force_N".
+std::string asListed(const std::string& path) {
+  std::string out;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t dot = std::min(path.find('.', begin), path.size());
+    const std::string word = path.substr(begin, dot - begin);
+    const bool number = !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
+    out += (out.empty() ? "" : ".") + (number ? std::string("0") : word);
+    begin = dot + 1;
+  }
+  return out;
+}
+
+[[noreturn]] void refuse(const std::string& path) {
+  std::set<std::string> whole, last;
+  const std::string name = path.substr(path.rfind('.') + 1);
+  std::string same_name;
+  for (const KeyEntry& entry : scenarioKeys()) {
+    whole.insert(entry.path);
+    if (same_name.empty() && entry.path.substr(entry.path.rfind('.') + 1) == name) {
+      same_name = entry.path;
+    }
+  }
+  const std::string near = same_name.empty() ? nearestWord(path, whole) : same_name;
+  throw InputError(fmt::format("no scenario has a key '{}'{} (`ballbot explain` lists the sections)",
+                               path,
+                               near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+}  // namespace
+
+const std::vector<KeyEntry>& scenarioKeys() {
+  static const std::vector<KeyEntry> keys = [] {
+    ConfigListing listing;
+    describeScenario(listing);
+    return listing.take();
+  }();
+  return keys;
+}
+
+std::vector<KeyEntry> keysAt(const std::string& path) {
+  const std::string wanted = asListed(path);
+  std::vector<KeyEntry> out;
+  for (const KeyEntry& entry : scenarioKeys()) {
+    const bool below = entry.path.compare(0, wanted.size() + 1, wanted + ".") == 0;
+    if (entry.path == wanted || below) out.push_back(entry);
+  }
+  if (out.empty()) refuse(path);
+  return out;
+}
+
+}  // namespace ballbot
