@@ -67,6 +67,13 @@ std::unique_ptr<ControlLaw> makeControlLaw(ConfigReader& in, const RobotParamete
   }
 }
 
+void describeKnownPayload(ConfigVisitor& v, double& payload) {
+  v.number(may("known_payload_kg",
+               "mass in the robot's hand that estimator and law count on; by "
+               "default the one of the robot's own description"),
+           payload, {0, 5});
+}
+
 void describeController(ConfigVisitor& v, const RobotParameters& robot) {
   Kind kind = Kind::kMpc;
   double known_payload = robot.payload_mass;
@@ -75,10 +82,7 @@ void describeController(ConfigVisitor& v, const RobotParameters& robot) {
   MpcConfig mpc(robot);
   DecoupledConfig decoupled;
   describeKind(v, kind);
-  v.number(may("known_payload_kg",
-               "mass in the robot's hand that estimator and law count on; by "
-               "default the one of the robot's own description"),
-           known_payload, {0, 5});
+  describeKnownPayload(v, known_payload);
   v.section(must("tracker", "follows the law's plan, at the highest rate"),
             [&](ConfigVisitor& in) { tracker.describe(in); });
   v.section(

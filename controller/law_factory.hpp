@@ -20,6 +20,9 @@ class ConfigVisitor;
 /// @throw InputError for what cannot be read or cannot be balanced.
 std::unique_ptr<ControlLaw> makeControlLaw(ConfigReader& in, const RobotParameters& robot);
 
+/// The key of the `controller:` section that says which payload estimator and law count on [kg].
+void describeKnownPayload(ConfigVisitor& v, double& payload);
+
 /// Tells of the whole `controller:` section, of every law and of what others read from it: its
 /// keys, and what they mean where the file says nothing.
 /// @throw NumericalError if the robot's nominal pose has no equilibrium.

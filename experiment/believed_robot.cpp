@@ -1,6 +1,7 @@
 #include "experiment/believed_robot.hpp"
 
-#include "core/config_reader.hpp"
+#include "controller/law_factory.hpp"
+#include "core/config_visitor.hpp"
 #include "model/robot_reader.hpp"
 
 namespace ballbot {
@@ -13,7 +14,8 @@ RobotParameters scenarioRobot(const Scenario& scenario) {
 RobotParameters believedRobot(const Scenario& scenario) {
   RobotParameters robot = scenarioRobot(scenario);
   ConfigReader in(scenario.section("controller"), "controller");
-  robot.payload_mass = in.numberOr("known_payload_kg", robot.payload_mass, {0, 5});
+  ConfigReading reading(in);
+  describeKnownPayload(reading, robot.payload_mass);
   return robot;
 }
 

@@ -4,12 +4,14 @@
 
 #include <fmt/format.h>
 
+#include "core/config_listing.hpp"
 #include "core/config_values.hpp"
 #include "core/config_visitor.hpp"
 #include "core/digest.hpp"
 #include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "core/yaml_file.hpp"
+#include "cosim/recorder.hpp"
 #include "experiment/scenario_variants.hpp"
 #include "experiment/text_file.hpp"
 #include "fmi/coupling_config.hpp"
@@ -149,8 +151,10 @@ Scenario readScenario(ConfigNode tree, const std::vector<std::string>& overrides
 
 void recordNothing(Scenario& scenario) {
   ConfigNode recording = ConfigNode::map({});
-  for (const char* key : {"sensors_period_ms", "truth_period_ms", "estimate_period_ms", "plan_period_ms", "command_period_ms"}) {
-    recording.set(key, ConfigNode::scalar("-1", false, {}));
+  ConfigListing listing;
+  RecorderOptions().describe(listing);
+  for (const KeyEntry& key : listing.take()) {
+    recording.set(key.path, ConfigNode::scalar("-1", false, {}));
   }
   scenario.tree.set("recording", recording);
 }

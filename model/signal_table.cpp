@@ -36,6 +36,23 @@ constexpr const char* kOne = "";
   BALLBOT_WHOLE(frame, SignalKind::kTime, field, name, "s", 0, text, toNs(f.member), \
                 f.member = simTimeFromNs(value))
 
+// The six quantities of a state (q, nu), with the word for whose it is.
+#define BALLBOT_STATE(frame, whose)                                                              \
+  BALLBOT_REALS(frame, "q", "ball_position_W", 2, "m", kPlane,                                   \
+                whose " position x, y of the ball centre in the world", f.state[kBallX]),        \
+      BALLBOT_REALS(frame, "q", "base_angles", 3, "rad", "yaw pitch roll",                       \
+                    whose " yaw (continuous), pitch, roll of the base", f.state[kYaw]),          \
+      BALLBOT_REALS(frame, "q", "arm_angle", 3, "rad", kArm, whose " angles of the arm joints",  \
+                    f.state[kArm1]),                                                             \
+      BALLBOT_REALS(frame, "nu", "ball_velocity_W", 2, "m/s", kPlane,                            \
+                    whose " velocity x, y of the ball centre in the world",                      \
+                    f.state[kPositionDim + kBallVx]),                                            \
+      BALLBOT_REALS(frame, "nu", "base_rate_B", 3, "rad/s", kAxes,                               \
+                    whose " angular velocity of the base in the world, in the base frame",       \
+                    f.state[kPositionDim + kOmegaX]),                                            \
+      BALLBOT_REALS(frame, "nu", "arm_rate", 3, "rad/s", kArm, whose " rates of the arm joints", \
+                    f.state[kPositionDim + kArmRate1])
+
 }  // namespace
 
 const std::vector<Signal<ActuatorCommand>>& commandSignals() {
@@ -102,20 +119,7 @@ const std::vector<Signal<SensorFrame>>& sensorSignals() {
 
 const std::vector<Signal<TruthFrame>>& truthSignals() {
   static const std::vector<Signal<TruthFrame>> signals = {
-      BALLBOT_REALS(TruthFrame, "q", "ball_position_W", 2, "m", kPlane,
-                    "true position x, y of the ball centre in the world", f.state[kBallX]),
-      BALLBOT_REALS(TruthFrame, "q", "base_angles", 3, "rad", "yaw pitch roll",
-                    "true yaw (continuous), pitch, roll of the base", f.state[kYaw]),
-      BALLBOT_REALS(TruthFrame, "q", "arm_angle", 3, "rad", kArm, "true angles of the arm joints",
-                    f.state[kArm1]),
-      BALLBOT_REALS(TruthFrame, "nu", "ball_velocity_W", 2, "m/s", kPlane,
-                    "true velocity x, y of the ball centre in the world",
-                    f.state[kPositionDim + kBallVx]),
-      BALLBOT_REALS(TruthFrame, "nu", "base_rate_B", 3, "rad/s", kAxes,
-                    "true angular velocity of the base in the world, in the base frame",
-                    f.state[kPositionDim + kOmegaX]),
-      BALLBOT_REALS(TruthFrame, "nu", "arm_rate", 3, "rad/s", kArm, "true rates of the arm joints",
-                    f.state[kPositionDim + kArmRate1]),
+      BALLBOT_STATE(TruthFrame, "true"),
       BALLBOT_REALS(TruthFrame, "joint_angle", "joint_angle", 6, "rad", kJoints,
                     "true joint angles: wheels 1 to 3, integrated, relative to the base, then arm",
                     f.joint_angle[0]),
@@ -149,20 +153,7 @@ const std::vector<Signal<TruthFrame>>& truthSignals() {
 
 const std::vector<Signal<EstimateFrame>>& estimateSignals() {
   static const std::vector<Signal<EstimateFrame>> signals = {
-      BALLBOT_REALS(EstimateFrame, "q", "ball_position_W", 2, "m", kPlane,
-                    "estimated position x, y of the ball centre in the world", f.state[kBallX]),
-      BALLBOT_REALS(EstimateFrame, "q", "base_angles", 3, "rad", "yaw pitch roll",
-                    "estimated yaw (continuous), pitch, roll of the base", f.state[kYaw]),
-      BALLBOT_REALS(EstimateFrame, "q", "arm_angle", 3, "rad", kArm,
-                    "estimated angles of the arm joints", f.state[kArm1]),
-      BALLBOT_REALS(EstimateFrame, "nu", "ball_velocity_W", 2, "m/s", kPlane,
-                    "estimated velocity x, y of the ball centre in the world",
-                    f.state[kPositionDim + kBallVx]),
-      BALLBOT_REALS(EstimateFrame, "nu", "base_rate_B", 3, "rad/s", kAxes,
-                    "estimated angular velocity of the base in the world, in the base frame",
-                    f.state[kPositionDim + kOmegaX]),
-      BALLBOT_REALS(EstimateFrame, "nu", "arm_rate", 3, "rad/s", kArm,
-                    "estimated rates of the arm joints", f.state[kPositionDim + kArmRate1]),
+      BALLBOT_STATE(EstimateFrame, "estimated"),
       BALLBOT_REALS(EstimateFrame, "sigma", "sigma_ball_position_W", 2, "m", kPlane,
                     "one standard deviation of ball_position_W", f.sigma[0]),
       BALLBOT_REALS(EstimateFrame, "sigma", "sigma_tilt", 2, "rad", "1 2",
@@ -218,6 +209,7 @@ const std::vector<Signal<PlanFrame>>& planSignals() {
   return signals;
 }
 
+#undef BALLBOT_STATE
 #undef BALLBOT_REALS
 #undef BALLBOT_WHOLE
 #undef BALLBOT_INTEGER
