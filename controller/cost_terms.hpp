@@ -31,6 +31,9 @@ enum CostTerm : int {
   kCostTermCount
 };
 
+/// Tasks that a plan can have beside those with a term of their own.
+constexpr int kMaxAddedTasks = 8;
+
 /// Name of a term as it appears in records, e.g. "ee_position".
 const char* costTermName(CostTerm term);
 
@@ -38,15 +41,18 @@ const char* costTermName(CostTerm term);
 /// (N m, N, rad, rad/s); 0 if all hold.
 struct CostTerms {
   std::array<double, kCostTermCount> value{};
+  std::array<double, kMaxAddedTasks> added{};  ///< of the tasks added, in their order
   double violation = 0;
 
   double total() const {
     double sum = 0;
     for (double v : value) sum += v;
+    for (double v : added) sum += v;
     return sum;
   }
   CostTerms& operator+=(const CostTerms& other) {
     for (int i = 0; i < kCostTermCount; ++i) value[i] += other.value[i];
+    for (int i = 0; i < kMaxAddedTasks; ++i) added[i] += other.added[i];
     violation = std::max(violation, other.violation);
     return *this;
   }

@@ -17,6 +17,7 @@ MpcConfig baseOnly(MpcConfig c) {
   tasks->ee_velocity_weight = tasks->ee_rate_weight = TimedWeight<3>();
   tasks->arm_position_weight = tasks->arm_rate_weight = TimedWeight<3>();
   tasks->contact_force_weight = TimedWeight<3>();
+  tasks->added.clear();
   c.schedule = tasks;
   c.contact_forces = false;
   c.constraints.arm_lower.setConstant(-kNoLimit);

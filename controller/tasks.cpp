@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "controller/frame_task.hpp"
 #include "core/config_visitor.hpp"
 #include "core/error.hpp"
 #include "model/frames.hpp"
@@ -16,13 +18,19 @@ namespace {
 /// A task: weight, and a reference where there can be one.
 template <int N>
 void describeTask(ConfigVisitor& v, const ConfigKey& key, TimedWeight<N>& weight,
-                  TimeSignal<N>* reference = nullptr, double least_weight = 0) {
+                  TimeSignal<N>* reference, double least_weight) {
   v.section(key, [&](ConfigVisitor& task) {
     weight.describe(task, least_weight);
     if (!reference) return;
     task.section(may("reference", "what is asked for over time"),
                  [&](ConfigVisitor& signal) { reference->describe(signal); });
   });
+}
+
+void weigh(const Eigen::Matrix<double, 1, 1>& weight, double& out) { out = weight[0]; }
+template <int N>
+void weigh(const Eigen::Matrix<double, N, 1>& weight, Eigen::Matrix<double, N, 1>& out) {
+  out = weight;
 }
 
 /// Angular velocity in W of R = Rz(yaw) Ry(pitch) Rx(roll) at given angle rates.
@@ -35,51 +43,23 @@ Vector3 rateFromYawPitchRoll(const Vector3& angles, const Vector3& rates) {
 
 }  // namespace
 
-TaskSchedule::TaskSchedule(const RobotParameters& robot) {
+TaskSchedule::TaskSchedule(const RobotParameters& robot) : robot_(robot) {
   const ReducedDynamics dynamics(robot);
-  const Equilibrium rest = findEquilibrium(dynamics, robot.nominal_arm);
-  const ReducedDynamics::EndEffector ee = dynamics.endEffector(rest.x);
+  rest_ = findEquilibrium(dynamics, robot.nominal_arm).x;
+  const ReducedDynamics::EndEffector ee = dynamics.endEffector(rest_);
   ee_position = TimeSignal<3>(ee.p_WE);
   ee_orientation = TimeSignal<3>(yawPitchRollFromRotation(ee.R_WE));
   arm_position = TimeSignal<3>(robot.nominal_arm);
 }
 
 void TaskSchedule::describe(ConfigVisitor& v) {
-  describeTask(v, may("ee_position", "place of the end-effector in the world, x, y and z"),
-               ee_position_weight, &ee_position);
-  describeTask(v,
-               may("ee_orientation",
-                   "orientation of the end-effector; the error is the sine of half "
-                   "the angle about the world's axes, the reference yaw, pitch, roll"),
-               ee_orientation_weight, &ee_orientation);
-  describeTask(v, may("ee_velocity", "velocity of the end-effector, against its reference's"),
-               ee_velocity_weight);
-  describeTask(v, may("ee_rate", "angular velocity of the end-effector, against its reference's"),
-               ee_rate_weight);
-  describeTask(v, may("ball_position", "place of the ball in the plane, x and y in the world"),
-               ball_position_weight, &ball_position);
-  describeTask(v, may("yaw", "heading of the base"), yaw_weight, &yaw);
-  describeTask(v, may("ball_velocity", "velocity of the ball, against its reference's"),
-               ball_velocity_weight);
-  describeTask(v, may("base_rate", "angular velocity of the base about its own axes, against none"),
-               base_rate_weight);
-  describeTask(v, may("arm_position", "angles of the arm's joints"), arm_position_weight,
-               &arm_position);
-  describeTask(v, may("arm_rate", "speeds of the arm's joints, against none"), arm_rate_weight);
-  describeTask<1>(
-      v, must("wheel_torque", "torques of the wheels, as shaped; they must cost something"),
-      wheel_torque_weight, nullptr, kTiny);
-  describeTask<1>(v, must("arm_torque", "torques of the arm's joints; they must cost something"),
-                  arm_torque_weight, nullptr, kTiny);
-  describeTask(v,
-               may("contact_force",
-                   "force of the environment on the end-effector in the contact "
-                   "frame, the normal last; without a weight there is no contact"),
-               contact_force_weight, &contact_force);
-  describeTask(
-      v,
-      may("contact_moment", "moment of the environment on the end-effector in the contact frame"),
-      contact_moment_weight, &contact_moment);
+#define BALLBOT_LED(name, N, unit, term, least, words) \
+  describeTask<N>(v, {#name, words, least > 0}, name##_weight, &name, least);
+#define BALLBOT_HELD(name, N, unit, term, least, words) \
+  describeTask<N>(v, {#name, words, least > 0}, name##_weight, nullptr, least);
+  BALLBOT_TASKS(BALLBOT_LED, BALLBOT_HELD)
+#undef BALLBOT_LED
+#undef BALLBOT_HELD
   v.section(may("contact_turn", "angle of the contact frame about the vertical over time"),
             [&](ConfigVisitor& turn) { contact_turn.describe(turn); });
   v.other(may("contact_hinge_m",
@@ -101,31 +81,44 @@ void TaskSchedule::describe(ConfigVisitor& v) {
             }
             contact_normal_W.normalize();
           });
+  describeAdded(v);
   v.boolean(may("preview", "whether plans see steps and switched weights before they come"),
             preview);
+}
+
+void TaskSchedule::describeAdded(ConfigVisitor& v) {
+  describeFrameTasks(v, robot_, rest_, added);
+  for (const TaskKind& kind : taskKinds().all()) {
+    v.section(may(kind.name.c_str(), kind.words.c_str()), [&](ConfigVisitor& in) {
+      const std::shared_ptr<AddedTask> task = kind.make(robot_, rest_);
+      task->describe(in);
+      added.push_back(task);
+    });
+  }
+  std::set<std::string> names;
+  for (const auto& task : added) {
+    if (names.insert(task->name()).second) continue;
+    throw InputError(fmt::format("controller.mpc.tasks: two tasks are called '{}'", task->name()));
+  }
+  if (added.size() > kMaxAddedTasks) {
+    throw InputError(fmt::format(
+        "controller.mpc.tasks: {} tasks on frames or added, at most {} are possible "
+        "(position and orientation count apart)",
+        added.size(), kMaxAddedTasks));
+  }
 }
 
 void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& contact,
                       const GovernedCommands& commands) const {
   const double ahead = t - now;
   const double known = preview ? t : now;
-  out.ee_position_weight = ee_position_weight.value(t, known);
-  out.ee_orientation_weight = ee_orientation_weight.value(t, known);
-  out.ee_velocity_weight = ee_velocity_weight.value(t, known);
-  out.ee_rate_weight = ee_rate_weight.value(t, known);
-  out.ball_position_weight = ball_position_weight.value(t, known);
-  out.yaw_weight = yaw_weight.value(t, known)[0];
-  out.ball_velocity_weight = ball_velocity_weight.value(t, known);
-  out.base_rate_weight = base_rate_weight.value(t, known);
-  out.arm_position_weight = arm_position_weight.value(t, known);
-  out.arm_rate_weight = arm_rate_weight.value(t, known);
-  out.wheel_torque_weight = wheel_torque_weight.value(t, known)[0];
-  out.arm_torque_weight = arm_torque_weight.value(t, known)[0];
-  out.contact_force_weight.setZero();
-  out.contact_moment_weight.setZero();
-  if (!contact.lost) {
-    out.contact_force_weight = contact_force_weight.value(t, known);
-    out.contact_moment_weight = contact_moment_weight.value(t, known);
+#define BALLBOT_WEIGHT(name, N, unit, term, least, words) \
+  weigh(name##_weight.value(t, known), out.name##_weight);
+  BALLBOT_TASKS(BALLBOT_WEIGHT, BALLBOT_WEIGHT)
+#undef BALLBOT_WEIGHT
+  if (contact.lost) {
+    out.contact_force_weight.setZero();
+    out.contact_moment_weight.setZero();
   }
 
   const Vector3 angles = ee_orientation.value(t, known), p_WE = ee_position.value(t, known);
@@ -144,6 +137,8 @@ void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& 
   double& normal_force = out.contact_force_C.z();
   normal_force = std::min(normal_force, contact.force_limit) + contact.force_added;
   out.contact_moment_C = contact_moment.value(t, known);
+  out.added = added.empty() ? nullptr : &added;
+  for (std::size_t i = 0; i < added.size(); ++i) added[i]->at(t, known, out.added_target[i]);
   const double turn = contact_turn.value(t, known)[0] + contact.turn;
   out.R_WC = Eigen::AngleAxisd(turn, Vector3::UnitZ()) * contactFrame(contact_normal_W);
 }

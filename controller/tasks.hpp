@@ -1,15 +1,23 @@
 #pragma once
 
+#include <array>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <vector>
 
+#include "controller/added_task.hpp"
+#include "controller/cost_terms.hpp"
 #include "controller/governed_commands.hpp"
+#include "controller/task_list.hpp"
 #include "controller/time_signal.hpp"
 #include "model/reduced_dynamics.hpp"
 
 namespace ballbot {
 
 class ConfigVisitor;
+
+using AddedTasks = std::vector<std::shared_ptr<const AddedTask>>;
 
 /// What the robot is asked for at one instant: weights of the cost rate
 ///
@@ -18,21 +26,11 @@ class ConfigVisitor;
 /// (Minniti et al. 2019, eq. 8) and the targets the errors are taken from. Pitch and roll of the
 /// base have no task: how the robot leans is left to the plan.
 struct Tasks {
-  // Weights, per component where the task has components.
-  Vector3 ee_position_weight = Vector3::Zero();     ///< in W [1/m^2]
-  Vector3 ee_orientation_weight = Vector3::Zero();  ///< of sin(angle/2) about the axes of W
-  Vector3 ee_velocity_weight = Vector3::Zero();     ///< in W [s^2/m^2]
-  Vector3 ee_rate_weight = Vector3::Zero();         ///< angular, in W [s^2/rad^2]
-  Eigen::Vector2d ball_position_weight = Eigen::Vector2d::Zero();  ///< in W [1/m^2]
-  double yaw_weight = 0;                                           ///< [1/rad^2]
-  Eigen::Vector2d ball_velocity_weight = Eigen::Vector2d::Zero();  ///< in W [s^2/m^2]
-  Vector3 base_rate_weight = Vector3::Zero();                      ///< of w_WB_B [s^2/rad^2]
-  Vector3 arm_position_weight = Vector3::Zero();                   ///< [1/rad^2]
-  Vector3 arm_rate_weight = Vector3::Zero();                       ///< [s^2/rad^2]
-  double wheel_torque_weight = 0;                   ///< of the shaped torque [1/(N m)^2]
-  double arm_torque_weight = 0;                     ///< [1/(N m)^2]
-  Vector3 contact_force_weight = Vector3::Zero();   ///< in C [1/N^2]; all zero: no contact
-  Vector3 contact_moment_weight = Vector3::Zero();  ///< in C [1/(N m)^2]; all zero: no moments
+  // Weights, per component where the task has components: ee_position_weight [1/m^2], ...
+#define BALLBOT_WEIGHT(name, N, unit, term, least, words) \
+  TaskWeightOf<N>::Type name##_weight = TaskWeightOf<N>::zero();
+  BALLBOT_TASKS(BALLBOT_WEIGHT, BALLBOT_WEIGHT)
+#undef BALLBOT_WEIGHT
 
   // Targets.
   Vector3 p_WE = Vector3::Zero();
@@ -45,6 +43,10 @@ struct Tasks {
   Vector3 contact_force_C = Vector3::Zero();   ///< on the end-effector [N]
   Vector3 contact_moment_C = Vector3::Zero();  ///< on the end-effector, at E [N m]
   Matrix3 R_WC = Matrix3::Identity();          ///< contact frame, z_C: normal pointing to the robot
+
+  /// Beside these: none where it is null.
+  const AddedTasks* added = nullptr;
+  std::array<TaskTarget, kMaxAddedTasks> added_target;
 
   /// The plan may push on the environment.
   bool inContact() const { return !contact_force_weight.isZero(0); }
@@ -82,24 +84,28 @@ class TaskSchedule {
   /// Whether plans know of steps and switched weights before they come. Off: they are commands.
   bool preview = false;
 
-  TimedWeight<3> ee_position_weight, ee_orientation_weight, ee_velocity_weight, ee_rate_weight;
-  TimedWeight<2> ball_position_weight, ball_velocity_weight;
-  TimedWeight<1> yaw_weight;
-  TimedWeight<3> base_rate_weight, arm_position_weight, arm_rate_weight;
-  TimedWeight<1> wheel_torque_weight, arm_torque_weight;
-  TimedWeight<3> contact_force_weight, contact_moment_weight;
+  // ee_position_weight and ee_position, ..., the references in the units of their residuals but
+  // for orientations: yaw, pitch, roll of E in W [rad].
+#define BALLBOT_LED(name, N, unit, term, least, words) \
+  TimedWeight<N> name##_weight;                        \
+  TimeSignal<N> name;
+#define BALLBOT_HELD(name, N, unit, term, least, words) TimedWeight<N> name##_weight;
+  BALLBOT_TASKS(BALLBOT_LED, BALLBOT_HELD)
+#undef BALLBOT_LED
+#undef BALLBOT_HELD
 
-  TimeSignal<3> ee_position;     ///< p_WE [m]
-  TimeSignal<3> ee_orientation;  ///< yaw, pitch, roll of E in W [rad]
-  TimeSignal<2> ball_position;   ///< [m]
-  TimeSignal<1> yaw;             ///< [rad]
-  TimeSignal<3> arm_position;    ///< [rad]
-  TimeSignal<3> contact_force;   ///< in C [N]
-  TimeSignal<3> contact_moment;  ///< in C [N m]
   TimeSignal<1> contact_turn;    ///< of the contact frame about the vertical [rad]
+
+  AddedTasks added;  ///< at most kMaxAddedTasks
 
   Vector3 contact_normal_W = -Vector3::UnitX();  ///< unit, pointing to the robot, before any turn
   std::optional<Eigen::Vector2d> contact_hinge;  ///< vertical axis the touched surface turns on [m]
+
+ private:
+  void describeAdded(ConfigVisitor& v);
+
+  RobotParameters robot_;
+  StateVector rest_;
 };
 
 /// Contact frame whose z axis is `normal`; x is horizontal.

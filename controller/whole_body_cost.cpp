@@ -78,12 +78,6 @@ void addRowsGradient(const WeightedRows& A, const Eigen::Matrix<double, 6, 1>& e
 
 }  // namespace
 
-OrientationError orientationError(const Matrix3& R_desired, const Matrix3& R) {
-  const Eigen::Quaterniond delta(Matrix3(R_desired * R.transpose()));
-  const double sign = delta.w() < 0 ? -1 : 1;
-  return {sign * delta.vec(), sign * delta.w()};
-}
-
 WholeBodyCost::WholeBodyCost(const RobotParameters& robot, const Constraints& constraints,
                              const TerminalCost& terminal)
     : dynamics_(robot),
@@ -266,6 +260,27 @@ void WholeBodyCost::tiltLimitCost(const StateVector& x, double share, CostTerms&
 }
 
 template <bool kExpand>
+void WholeBodyCost::addedCost(const StateVector& x, const Tasks& tasks, double share,
+                              CostTerms& terms, StateExpansion* out) const {
+  for (std::size_t i = 0; i < tasks.added->size(); ++i) {
+    const TaskTarget& target = tasks.added_target[i];
+    if (target.weight.isZero(0)) continue;
+    Vector3 e = Vector3::Zero();
+    TaskJacobian J;
+    if constexpr (kExpand) J.setZero();
+    (*tasks.added)[i]->residual(x, target.reference, e, kExpand ? &J : nullptr);
+    terms.added[i] += 0.5 * share * target.weight.dot(e.cwiseAbs2());
+    if constexpr (kExpand) {
+      const TaskJacobian weighted = (share * target.weight).asDiagonal() * J;
+      for (int c = 0; c < kStateDim; ++c) {
+        out->g(c) += weighted.col(c).dot(e);
+        for (int r = c; r < kStateDim; ++r) out->H(r, c) += weighted.col(c).dot(J.col(r));
+      }
+    }
+  }
+}
+
+template <bool kExpand>
 void WholeBodyCost::stateCost(const StateVector& x, const ReducedDynamics::EndEffector& tip,
                               const EndEffectorLinearization* by_x, const Tasks& tasks,
                               double share, CostTerms& terms, StateExpansion* out) const {
@@ -274,6 +289,7 @@ void WholeBodyCost::stateCost(const StateVector& x, const ReducedDynamics::EndEf
   armLimitCost<kExpand>(x, share, terms, out);
   wheelRateLimitCost<kExpand>(x, share, terms, out);
   tiltLimitCost<kExpand>(x, share, terms, out);
+  if (tasks.added != nullptr) addedCost<kExpand>(x, tasks, share, terms, out);
 }
 
 template <bool kExpand>
@@ -366,6 +382,7 @@ void WholeBodyCost::addFinal(const StateVector& x, const Tasks& tasks, double sh
   CostTerms rate;
   addState(x, tasks, 1, rate);
   for (int i = 0; i < kCostTermCount; ++i) terms.value[i] += share * rate.value[i];
+  for (int i = 0; i < kMaxAddedTasks; ++i) terms.added[i] += share * rate.added[i];
   terms.value[kTerminalCost] += terminal_.stateScale() * rate.total();
   if (lqr_value_) terms.value[kTerminalCost] += lqr_value_->value(x, tasks);
   terms.violation = std::max(terms.violation, rate.violation);
@@ -381,6 +398,7 @@ void WholeBodyCost::expandFinal(const StateVector& x, const Tasks& tasks, double
   for (int j = 0; j < kX; ++j)
     for (int i = j + 1; i < kX; ++i) value.S_aug[i * kX + j] = value.S_aug[j * kX + i];
   for (int i = 0; i < kCostTermCount; ++i) terms.value[i] += share * rate.value[i];
+  for (int i = 0; i < kMaxAddedTasks; ++i) terms.added[i] += share * rate.added[i];
   terms.value[kTerminalCost] += terminal_.stateScale() * rate.total();
   if (lqr_value_) terms.value[kTerminalCost] += lqr_value_->expand(x, tasks, value);
   terms.violation = std::max(terms.violation, rate.violation);

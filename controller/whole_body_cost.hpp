@@ -2,6 +2,7 @@
 
 #include "controller/constraints.hpp"
 #include "controller/cost_terms.hpp"
+#include "controller/orientation_error.hpp"
 #include "controller/riccati.hpp"
 #include "controller/tasks.hpp"
 #include "controller/terminal_cost.hpp"
@@ -79,6 +80,9 @@ class WholeBodyCost {
   void tiltLimitCost(const StateVector& x, double share, CostTerms& terms,
                      StateExpansion* out) const;
   template <bool kExpand>
+  void addedCost(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms,
+                 StateExpansion* out) const;
+  template <bool kExpand>
   void stateCost(const StateVector& x, const ReducedDynamics::EndEffector& tip,
                  const EndEffectorLinearization* by_x, const Tasks& tasks, double share,
                  CostTerms& terms, StateExpansion* out) const;
@@ -97,13 +101,5 @@ class WholeBodyCost {
   std::shared_ptr<const LqrTerminalCost> lqr_value_;  ///< null unless the terminal cost is it
   double sin_tilt_limit_, cos_tilt_limit_;
 };
-
-/// Vector part e of the quaternion of R_desired R^T, |e| = sin(angle / 2), and its scalar part
-/// eta >= 0. A small rotation delta of R in W changes it by -1/2 (eta 1 + skew(e)) delta.
-struct OrientationError {
-  Vector3 e;
-  double eta;
-};
-OrientationError orientationError(const Matrix3& R_desired, const Matrix3& R);
 
 }  // namespace ballbot

@@ -58,8 +58,6 @@ class ConfigListing final : public ConfigVisitor {
   void list(const ConfigKey& key, const std::function<void(ConfigVisitor&)>& inner) override;
   void other(const ConfigKey& key, const char* kind,
              const std::function<void(ConfigReader&)>& read) override;
-
- protected:
   void chooseIndex(const ConfigKey& key, std::size_t& index,
                    const std::vector<std::string>& names) override;
 

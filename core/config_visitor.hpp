@@ -73,8 +73,7 @@ class ConfigVisitor {
     chooseIndex(key, index, names);
     value = (choices.begin() + index)->second;
   }
-
- protected:
+  /// The same where the names are known at run time only.
   virtual void chooseIndex(const ConfigKey& key, std::size_t& index,
                            const std::vector<std::string>& names) = 0;
 };
@@ -95,8 +94,6 @@ class ConfigReading final : public ConfigVisitor {
   void list(const ConfigKey& key, const std::function<void(ConfigVisitor&)>& inner) override;
   void other(const ConfigKey& key, const char* kind,
              const std::function<void(ConfigReader&)>& read) override;
-
- protected:
   void chooseIndex(const ConfigKey& key, std::size_t& index,
                    const std::vector<std::string>& names) override;
 

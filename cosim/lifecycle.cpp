@@ -64,22 +64,6 @@ const char* wayOut(LifecycleState state) {
 
 }  // namespace
 
-const char* toText(LifecycleState state) {
-  switch (state) {
-    case LifecycleState::kInstantiated:
-      return "instantiated";
-    case LifecycleState::kInitialization:
-      return "initialization";
-    case LifecycleState::kStep:
-      return "step";
-    case LifecycleState::kTerminated:
-      return "terminated";
-    case LifecycleState::kFailed:
-      return "failed";
-  }
-  return "unknown";
-}
-
 void Lifecycle::demand(Call call) const {
   const Rule& rule = kRules[static_cast<std::size_t>(call)];
   if ((rule.allowed & bit(state_)) != 0) return;

@@ -6,19 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "cosim/lifecycle_state.hpp"
 #include "cosim/participant.hpp"
 
 namespace ballbot {
-
-/// Where a participant stands in the life that FMI 3.0 Co-Simulation gives it.
-enum class LifecycleState : std::uint8_t {
-  kInstantiated,
-  kInitialization,
-  kStep,
-  kTerminated,
-  kFailed,  ///< a call threw; only reset and restoreState lead out
-};
-const char* toText(LifecycleState state);
 
 /// A participant whose contract is enforced: the call order, that steps follow one another without
 /// gap, that commands are finite and
@@ -60,6 +51,7 @@ class Lifecycle final : public Participant {
   void reset() override;
   const SensorFrame& sensors() const override;
   std::optional<TruthFrame> truth() const override;
+  const AddedSignals& addedSensors() const override { return participant_.addedSensors(); }
   /// The participant's state together with time and lifecycle state.
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;

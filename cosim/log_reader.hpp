@@ -7,6 +7,7 @@
 #include "ballbot_msgs/tick_digests.hpp"
 #include "messages/channels.hpp"
 #include "messages/wire.hpp"
+#include "model/added_signals.hpp"
 #include "model/reports.hpp"
 #include "model/signals.hpp"
 #include "model/truth.hpp"
@@ -86,6 +87,13 @@ struct RecordedCommand {
   ActuatorCommand command;
 };
 
+/// What was added to a frame, over time.
+struct AddedRecord {
+  std::vector<AddedSignal> list;
+  std::vector<SimTime> times;
+  std::vector<std::vector<double>> rows;  ///< one value for each of the list
+};
+
 /// A whole log in memory, typed, in the order of time.
 struct RunLog {
   std::vector<SensorFrame> sensors;
@@ -93,6 +101,7 @@ struct RunLog {
   std::vector<EstimateFrame> estimates;
   std::vector<PlanFrame> plans;
   std::vector<RecordedCommand> commands;
+  AddedRecord added_sensors, added_to_plan;
   std::vector<ballbot_msgs::tick_digests> digests;
   std::int64_t unknown = 0;     ///< events of other channels
   std::string unknown_channel;  ///< the first of them

@@ -6,6 +6,7 @@
 
 #include "core/state_blob.hpp"
 #include "core/time.hpp"
+#include "model/added_signals.hpp"
 #include "model/signals.hpp"
 #include "model/truth.hpp"
 
@@ -42,6 +43,13 @@ class Participant {
   virtual const SensorFrame& sensors() const = 0;
   /// True state at the current time, for the record; nothing where nobody knows it (real drives).
   virtual std::optional<TruthFrame> truth() const = 0;
+
+  /// Values of sensors that were added to those of the frame, at the current time; the list from
+  /// the beginning on.
+  virtual const AddedSignals& addedSensors() const {
+    static const AddedSignals none;
+    return none;
+  }
 
   /// The complete state; restoring it, here or in another process, continues bit for bit.
   virtual StateBlob saveState() const = 0;

@@ -43,7 +43,8 @@ Recorder::Recorder(RecorderOptions options) : options_(std::move(options)) {
 void Recorder::record(const Tick& tick) {
   beginTick(tick);
   toMessage(tick.sensors, tick.number, sensors_);
-  take(Channel::kSensors, tick.time, options_.sensors, sensors_);
+  const bool sensors = take(Channel::kSensors, tick.time, options_.sensors, sensors_);
+  takeAdded(kAddedSensorsChannel, tick, tick.added_sensors, sensors, named_sensors_);
   if (tick.truth) {
     toMessage(*tick.truth, tick.number, truth_);
     take(Channel::kTruth, tick.time, options_.truth, truth_);
@@ -54,7 +55,8 @@ void Recorder::record(const Tick& tick) {
   }
   if (tick.control.has_plan) {
     toMessage(tick.control.plan, tick.number, plan_);
-    take(Channel::kPlan, tick.time, options_.plan, plan_);
+    const bool plan = take(Channel::kPlan, tick.time, options_.plan, plan_);
+    takeAdded(kAddedPlanChannel, tick, tick.added_to_plan, plan, named_plan_);
   }
   toMessage(tick.control.command, tick.number, tick.time, command_);
   take(Channel::kCommand, tick.time, options_.command, command_);
@@ -68,17 +70,45 @@ void Recorder::record(const Tick& tick) {
 }
 
 template <typename Message>
-void Recorder::take(Channel channel, SimTime time, SimDuration period, const Message& message) {
+bool Recorder::take(Channel channel, SimTime time, SimDuration period, const Message& message) {
   encodeMessage(message, bytes_);
   digest_.add(bytes_.data(), bytes_.size());
   addHash(channel, hash64(bytes_.data(), bytes_.size()));
-  if (!log_ || period.count() < 0) return;
+  if (!log_ || period.count() < 0) return false;
   if (period.count() > 0) {
     SimTime& next_due = next_due_[static_cast<std::size_t>(channel)];
-    if (time < next_due) return;
+    if (time < next_due) return false;
     next_due = nextMultiple(time, period);
   }
   log_->write(time, channelName(channel), bytes_);
+  return true;
+}
+
+void Recorder::takeAdded(const char* channel, const Tick& tick, const AddedSignals* added, bool log,
+                         bool& named) {
+  if (added == nullptr || added->empty()) return;
+  digest_.add(added->values.data(), added->values.size() * sizeof(double));
+  if (!log) return;
+  added_.tick = tick.number;
+  added_.sim_time_ns = toNs(tick.time);
+  for (const AddedSignal& signal : added->list) {
+    if (named) break;
+    added_.name = signal.name;
+    added_.unit = signal.unit;
+    added_.words = signal.words;
+    added_.value.clear();
+    writeAdded(channel, tick.time);
+  }
+  named = true;
+  added_.name = added_.unit = added_.words = "";
+  added_.value = added->values;
+  writeAdded(channel, tick.time);
+}
+
+void Recorder::writeAdded(const char* channel, SimTime time) {
+  added_.count = static_cast<std::int32_t>(added_.value.size());
+  encodeMessage(added_, bytes_);
+  log_->write(time, channel, bytes_);
 }
 
 void Recorder::beginTick(const Tick& tick) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "ballbot_msgs/actuator_command.hpp"
+#include "ballbot_msgs/added_values.hpp"
 #include "ballbot_msgs/plan_report.hpp"
 #include "ballbot_msgs/sensor_frame.hpp"
 #include "ballbot_msgs/state_estimate.hpp"
@@ -54,8 +55,12 @@ class Recorder {
   std::int64_t bytesWritten() const { return log_ ? log_->bytesWritten() : 0; }
 
  private:
+  /// @return whether it was logged
   template <typename Message>
-  void take(Channel channel, SimTime time, SimDuration period, const Message& message);
+  bool take(Channel channel, SimTime time, SimDuration period, const Message& message);
+  void takeAdded(const char* channel, const Tick& tick, const AddedSignals* added, bool log,
+                 bool& named);
+  void writeAdded(const char* channel, SimTime time);
   void beginTick(const Tick& tick);
   void addHash(Channel channel, std::uint64_t hash);
   void writeDigests();
@@ -71,6 +76,8 @@ class Recorder {
   ballbot_msgs::state_estimate estimate_{};
   ballbot_msgs::plan_report plan_{};
   ballbot_msgs::tick_digests tick_digests_{};
+  ballbot_msgs::added_values added_{};
+  bool named_sensors_ = false, named_plan_ = false;  ///< the lists of what was added are written
   Bytes bytes_;
 };
 

@@ -21,6 +21,8 @@ struct RemoteOptions {
   /// process may still be starting.
   std::chrono::milliseconds patience{10'000};
   std::chrono::milliseconds first_patience{30'000};
+  /// Of the participant, without values: both ends have them from the same configuration.
+  AddedSignals added_sensors;
   /// Asked between tries: why the far end is known to be gone ("exited with code 2"), or empty.
   std::function<std::string()> peer_trouble;
   /// Words for a person while the far end is long at work: "plant is busy: setting up the drives".
@@ -53,6 +55,7 @@ class RemoteParticipant final : public Participant {
   void reset() override;
   const SensorFrame& sensors() const override { return sensors_; }
   std::optional<TruthFrame> truth() const override { return truth_; }
+  const AddedSignals& addedSensors() const override { return options_.added_sensors; }
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;
   std::uint64_t stateDigest() const override { return state_digest_; }

@@ -28,6 +28,9 @@ template <typename Message, typename Frame>
 void unpack(const Message& message, Frame& out) {
   fromMessage(message, out);
 }
+void unpack(ballbot_msgs::added_values& message, ballbot_msgs::added_values& out) {
+  out = std::move(message);
+}
 void unpack(ballbot_msgs::tick_digests& message, ballbot_msgs::tick_digests& out) {
   out = std::move(message);
 }
@@ -40,7 +43,8 @@ bool isTypeOfRun(std::int64_t fingerprint) {
   const std::int64_t known[] = {
       ballbot_msgs::sensor_frame::getHash(),     ballbot_msgs::truth_frame::getHash(),
       ballbot_msgs::state_estimate::getHash(),   ballbot_msgs::plan_report::getHash(),
-      ballbot_msgs::actuator_command::getHash(), ballbot_msgs::tick_digests::getHash()};
+      ballbot_msgs::actuator_command::getHash(), ballbot_msgs::tick_digests::getHash(),
+      ballbot_msgs::added_values::getHash()};
   return std::find(std::begin(known), std::end(known), fingerprint) != std::end(known);
 }
 
@@ -77,6 +81,10 @@ class RunLogReader {
       keep<plan_report>(log_.plans);
     } else if (event_.channel == channelName(Channel::kCommand)) {
       keep<actuator_command>(log_.commands);
+    } else if (event_.channel == kAddedSensorsChannel) {
+      keepAdded(log_.added_sensors);
+    } else if (event_.channel == kAddedPlanChannel) {
+      keepAdded(log_.added_to_plan);
     } else if (event_.channel == kTickDigestsChannel) {
       keep<tick_digests>(log_.digests);
     } else if (isTypeOfRun(fingerprint(event_.data.data(), event_.data.size()))) {
@@ -103,6 +111,23 @@ class RunLogReader {
     }
     list.emplace_back();
     unpack(message, list.back());
+  }
+
+  void keepAdded(AddedRecord& record) {
+    std::vector<ballbot_msgs::added_values> messages;
+    keep<ballbot_msgs::added_values>(messages);
+    if (messages.empty()) return;
+    const ballbot_msgs::added_values& m = messages.front();
+    if (!m.name.empty()) {
+      record.list.push_back({m.name, m.unit, m.words});
+      return;
+    }
+    if (m.value.size() != record.list.size()) {
+      return lose(fmt::format("its {} message has {} values, and {} are named", event_.channel,
+                              m.value.size(), record.list.size()));
+    }
+    record.times.push_back(simTimeFromNs(m.sim_time_ns));
+    record.rows.push_back(m.value);
   }
 
   void lose(const std::string& what) {

@@ -85,7 +85,9 @@ bool StepMaster::step() {
 }
 
 void StepMaster::processEvent() {
-  control_.has_estimate = control_.has_plan = false;
+  control_.has_estimate = control_.has_plan = control_.has_self_assessment = false;
+  const AddedSignals& added = participant_->addedSensors();
+  if (!added.empty()) controller_.takeAddedSensors(added);
   controller_.onSensors(time_, participant_->sensors(), calendar_.dueAt(time_), control_);
   const std::string bad = firstNonFinite(control_.command);
   if (!bad.empty()) {
@@ -95,7 +97,8 @@ void StepMaster::processEvent() {
   }
   const std::optional<TruthFrame> truth = participant_->truth();
   const Tick tick{tick_, time_,    participant_->sensors(),
-                  truth, control_, participant_->stateDigest()};
+                  truth, control_, participant_->stateDigest(),
+                  &added, &controller_.addedToPlan()};
   if (recorder_ != nullptr) recorder_->record(tick);
   if (observer_ && !observer_(tick)) {
     ended_ = End::kObserver;

@@ -18,6 +18,8 @@ struct Tick {
   const std::optional<TruthFrame>& truth;
   const ControlOutput& control;
   std::uint64_t state_digest;  ///< of the participant's complete state
+  const AddedSignals* added_sensors = nullptr;  ///< null or empty: none
+  const AddedSignals* added_to_plan = nullptr;  ///< likewise
 };
 
 }  // namespace ballbot

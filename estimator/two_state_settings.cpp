@@ -4,7 +4,13 @@
 #include "core/config_visitor.hpp"
 
 namespace ballbot {
+
 void TwoStateSettings::describe(ConfigVisitor& v) {
+  describeOwn(v);
+  SharedSettings::describe(v);
+}
+
+void TwoStateSettings::describeOwn(ConfigVisitor& v) {
   v.section(may("noise", "of the sensors and of the random walks, one standard deviation"),
             [&](ConfigVisitor& in) { noise.describe(in); });
   v.section(may("initial", "one standard deviation of what is known before any measurement"),
@@ -19,7 +25,6 @@ void TwoStateSettings::describe(ConfigVisitor& v) {
               pose.describe(in);
             });
   v.integer(may("iterations", "per update; one is not enough"), iterations, {2, 10});
-  SharedSettings::describe(v);
   v.duration(may("imu_wait_ms", "a sample of the IMU that is later than this is gone without"),
              imu_wait, {0, 15});
   v.vector(may("initial_tilt_error_deg",

@@ -26,6 +26,8 @@ struct TwoStateSettings : SharedSettings {
   Eigen::Vector2d initial_tilt_error = Eigen::Vector2d::Zero();
 
   void describe(ConfigVisitor& v);
+  /// Without those that every estimator has.
+  void describeOwn(ConfigVisitor& v);
   /// Every key has a default. @throw InputError with file:line:column
   static TwoStateSettings read(ConfigReader& in);
 };

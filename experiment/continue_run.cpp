@@ -8,7 +8,7 @@
 #include "core/number_text.hpp"
 #include "cosim/lifecycle.hpp"
 #include "experiment/checkpoint_files.hpp"
-#include "experiment/plant_link.hpp"
+#include "experiment/plant_factory.hpp"
 #include "experiment/recorded_run.hpp"
 #include "experiment/robot_controller.hpp"
 
@@ -37,9 +37,10 @@ Checkpoint stateOfRun(const RunFolder& run, SimTime time, const ReplayOptions& o
     throw InputError(fmt::format("{}: ended at {:.9g} s, so it cannot be continued from {:.9g} s",
                                  run.path(), summary->simulated_s, toSeconds(time)));
   }
+  const RunConfig config = readRunConfig(scenario);
   EventCalendar calendar(scenario.rates.base_step);
-  RobotController controller(scenario, calendar);
-  Lifecycle plant(makePlant(scenario));
+  RobotController controller(config, calendar);
+  Lifecycle plant(makePlant(config.plant));
   MasterOptions master_options;
   master_options.end = kSimStart + scenario.duration;
   master_options.stop = options.stop;
@@ -62,9 +63,10 @@ Checkpoint stateOfRun(const RunFolder& run, SimTime time, const ReplayOptions& o
 Checkpoint adaptState(const Checkpoint& state, const Scenario& original, const Scenario& changed) {
   const bool same_law =
       toYaml(original.section("controller")) == toYaml(changed.section("controller"));
+  const RunConfig config = readRunConfig(changed);
   EventCalendar calendar(changed.rates.base_step);
-  RobotController controller(changed, calendar);
-  Lifecycle plant(makePlant(changed));
+  RobotController controller(config, calendar);
+  Lifecycle plant(makePlant(config.plant));
   Checkpoint out = state;
   try {
     plant.enterInitializationMode(kSimStart);

@@ -8,7 +8,6 @@
 #include "core/number_text.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/robot_sensing.hpp"
-#include "experiment/scenario_frame.hpp"
 #include "model/signal_table.hpp"
 
 namespace ballbot {
@@ -97,15 +96,16 @@ class OnlineComparison {
 
 }  // namespace
 
-LogEstimate estimateLog(const Scenario& scenario, const RunLog& log) {
+LogEstimate estimateLog(const RunConfig& config, const RunLog& log) {
+  const Scenario& scenario = config.scenario;
   if (log.sensors.empty()) {
     throw InputError("the log holds no sensor frames; " +
                      (log.damage.none() ? std::string("was recording.sensors_period_ms negative?")
                                         : "it is " + log.damage.text()));
   }
-  RobotSensing sensing(scenario);
+  RobotSensing sensing(config);
   const SimDuration period = scenario.rates.estimator;
-  const HomeFrame home = homeFrame(scenario);
+  const HomeFrame& home = config.home;
   EstimationErrors errors(scenario.release);
   ErrorTable table;
   OnlineComparison comparison(log.estimates);

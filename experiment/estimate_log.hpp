@@ -7,7 +7,7 @@
 
 #include "cosim/log_reader.hpp"
 #include "experiment/log_tables.hpp"
-#include "experiment/scenario.hpp"
+#include "experiment/run_config.hpp"
 #include "metrics/estimation_errors.hpp"
 
 namespace ballbot {
@@ -33,6 +33,6 @@ struct LogEstimate {
 /// only. With the settings of the run and a log that holds every frame the estimator saw, the result
 /// is that of the run bit for bit.
 /// @throw InputError if the log holds no sensor frames, or the scenario's estimator is not right.
-LogEstimate estimateLog(const Scenario& scenario, const RunLog& log);
+LogEstimate estimateLog(const RunConfig& config, const RunLog& log);
 
 }  // namespace ballbot

@@ -132,8 +132,9 @@ std::string verdictText(const LogEstimate& e) {
 
 }  // namespace
 
-void writeEstimateReport(const Scenario& scenario, const LogEstimate& e, bool should_be_identical,
+void writeEstimateReport(const RunConfig& config, const LogEstimate& e, bool should_be_identical,
                          const std::string& path) {
+  const Scenario& scenario = config.scenario;
   ReportData data;
   data.title = "Estimate of " + scenario.name;
   data.subtitle = "The recorded sensors, played to the estimator again.";
@@ -157,7 +158,7 @@ void writeEstimateReport(const Scenario& scenario, const LogEstimate& e, bool sh
     data.phases.push_back(
         {ReportPhase::Kind::kHold, 0, toSeconds(scenario.release), "held in the stand"});
   }
-  for (const Fault& fault : scheduledFaults(scenario.tree)) {
+  for (const Fault& fault : config.plant.plant.faults) {
     data.phases.push_back(
         {ReportPhase::Kind::kFault, toSeconds(fault.start), toSeconds(fault.end()), toText(fault)});
   }

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "experiment/estimate_log.hpp"
-#include "experiment/scenario.hpp"
+#include "experiment/run_config.hpp"
 
 namespace ballbot {
 
@@ -11,7 +11,7 @@ namespace ballbot {
 /// innovations, and what was rejected when.
 /// @param should_be_identical  the settings are those of the run
 /// @throw OutputError
-void writeEstimateReport(const Scenario& scenario, const LogEstimate& estimate,
+void writeEstimateReport(const RunConfig& config, const LogEstimate& estimate,
                          bool should_be_identical, const std::string& path);
 
 }  // namespace ballbot

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/angle.hpp"
-#include "experiment/believed_robot.hpp"
 #include "experiment/contact_report.hpp"
 #include "experiment/run_replay.hpp"
 #include "experiment/text_file.hpp"
@@ -19,13 +18,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-ReportReplay replayOf(const TruthFrame& truth, const RobotParameters& robot,
-                      const std::vector<Push>& pushes, const EeReference& reference,
-                      const SurroundingsParameters& surroundings) {
+ReportReplay replayOf(const TruthFrame& truth, const RunConfig& config) {
+  const PlantConfig& plant = config.plant.plant;
+  const std::vector<Push>& pushes = plant.pushes;
   RunLog log;
   log.truth.push_back(truth);
-  ReportReplay replay = makeReplay(log, robot, pushes, reference);
-  replay.objects = replayObjects(log, surroundings);
+  ReportReplay replay = makeReplay(log, config.robot, pushes, *config.reference(), config.home);
+  replay.objects = replayObjects(log, plant.surroundings);
   if (replay.forces.size() == pushes.size()) {  // nothing touched just now
     replay.forces.push_back({"contact", ReportPhase::Kind::kContact, {{0, 0, 0}}, {{0, 0, 0}}});
   }
@@ -43,19 +42,14 @@ const char* nameOf(SeriesStyle style) {
 
 }  // namespace
 
-LiveScene::LiveScene(const Scenario& scenario)
-    : scenario_(scenario),
-      robot_(scenarioRobot(scenario)),
-      reference_(readEeReference(scenario)),
-      pushes_(scheduledPushes(scenario.tree)),
-      surroundings_(surroundingsOf(scenario.tree)) {}
+LiveScene::LiveScene(const RunConfig& config) : config_(config) {}
 
 std::string LiveScene::description() const {
-  const ReportReplay replay = replayOf({}, robot_, pushes_, reference_, surroundings_);
-  Json out = {{"title", scenario_.name},
-              {"subtitle", scenario_.summary},
-              {"duration", toSeconds(scenario_.duration)},
-              {"urdf", readTextFile(scenario_.urdf_path)},
+  const ReportReplay replay = replayOf({}, config_);
+  Json out = {{"title", config_.scenario.name},
+              {"subtitle", config_.scenario.summary},
+              {"duration", toSeconds(config_.scenario.duration)},
+              {"urdf", readTextFile(config_.scenario.urdf_path)},
               {"followed_link", replay.followed_link}};
   for (const auto& body : replay.bodies) out["bodies"].push_back(body.link);
   for (const auto& joint : replay.joints) out["joints"].push_back(joint.name);
@@ -84,10 +78,10 @@ std::string LiveScene::frame(const TruthFrame& truth) {
   started_ = true;
   last_s_ = t;
   const Vector3 w = OmniwheelKinematics::rollingAngularVelocity(
-      truth.state[kPositionDim + kBallVx], truth.state[kPositionDim + kBallVy], robot_.ball.radius);
+      truth.state[kPositionDim + kBallVx], truth.state[kPositionDim + kBallVy], config_.robot.ball.radius);
   ball_ = (Eigen::Quaterniond(expSO3(w * dt)) * ball_).normalized();
 
-  ReportReplay replay = replayOf(truth, robot_, pushes_, reference_, surroundings_);
+  ReportReplay replay = replayOf(truth, config_);
   Json bodies = Json::array(), joints = Json::array(), frames = Json::array(),
        points = Json::array(), forces = Json::array(), objects = Json::array();
   for (auto& body : replay.bodies) {

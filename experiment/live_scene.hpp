@@ -5,11 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include "experiment/ee_reference.hpp"
-#include "experiment/scenario.hpp"
+#include "experiment/run_config.hpp"
 #include "model/truth.hpp"
-#include "plant/environment.hpp"
-#include "plant/surroundings.hpp"
 
 namespace ballbot {
 
@@ -17,8 +14,7 @@ namespace ballbot {
 /// JSON. The scenario must be that of the run.
 class LiveScene {
  public:
-  /// @throw InputError as the parts of the scenario.
-  explicit LiveScene(const Scenario& scenario);
+  explicit LiveScene(const RunConfig& config);
 
   /// Title, robot, names of all that moves, and of the plots' lines.
   std::string description() const;
@@ -26,11 +22,7 @@ class LiveScene {
   std::string frame(const TruthFrame& truth);
 
  private:
-  Scenario scenario_;
-  RobotParameters robot_;
-  EeReference reference_;
-  std::vector<Push> pushes_;
-  SurroundingsParameters surroundings_;
+  RunConfig config_;
   bool started_ = false;
   double last_s_ = 0;
   Eigen::Quaterniond ball_ = Eigen::Quaterniond::Identity();  ///< from rolling, frame to frame

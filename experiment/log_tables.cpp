@@ -1,6 +1,7 @@
 #include "experiment/log_tables.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -46,6 +47,25 @@ void addTable(const char* name, const std::vector<Recorded>& recorded, std::vect
   out.push_back(std::move(table));
 }
 
+/// What was added to the frames of a table, beside their own columns; not a number where a row has
+/// none of it.
+void addColumns(const AddedRecord& record, LogTable& table) {
+  const std::vector<double>& times = table.columns.front().values;
+  for (std::size_t i = 0; i < record.list.size(); ++i) {
+    LogTable::Column column{record.list[i].name, record.list[i].unit, {}};
+    column.values.reserve(times.size());
+    std::size_t next = 0;
+    for (const double time : times) {
+      while (next < record.times.size() && decimalSeconds(toNs(record.times[next])) < time) ++next;
+      const bool there =
+          next < record.times.size() && decimalSeconds(toNs(record.times[next])) == time;
+      column.values.push_back(there ? record.rows[next][i]
+                                    : std::numeric_limits<double>::quiet_NaN());
+    }
+    table.columns.push_back(std::move(column));
+  }
+}
+
 }  // namespace
 
 const std::vector<double>& LogTable::column(const std::string& column_name) const {
@@ -60,10 +80,12 @@ std::string costColumn(CostTerm term) { return std::string("cost_") + costTermNa
 std::vector<LogTable> logTables(const RunLog& log) {
   std::vector<LogTable> tables;
   addTable("sensors", log.sensors, tables);
+  if (!log.sensors.empty()) addColumns(log.added_sensors, tables.back());
   addTable("truth", log.truth, tables);
   addTable("estimate", log.estimates, tables);
   addTable("command", log.commands, tables);
   addTable("plan", log.plans, tables);
+  if (!log.plans.empty()) addColumns(log.added_to_plan, tables.back());
   return tables;
 }
 

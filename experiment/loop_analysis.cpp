@@ -3,42 +3,12 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
-#include "controller/pd_tracker.hpp"
-#include "core/config_reader.hpp"
-#include "experiment/believed_robot.hpp"
-#include "experiment/motion_metrics.hpp"
+#include "core/error.hpp"
 #include "model/actuator_response.hpp"
 #include "plant/plant_config.hpp"
 
 namespace ballbot {
 namespace {
-
-/// Quadratic cost of the law that the scenario names.
-struct Weights {
-  StateJacobian Q;
-  JointVector R;
-  FrequencyShaping shaping;
-};
-
-Weights weightsOf(const Scenario& scenario, const RobotParameters& robot, SimTime at) {
-  Weights w;
-  ConfigReader controller(scenario.section("controller"), "controller");
-  if (controller.text("kind") == "lqr") {
-    ConfigReader in = controller.child("lqr");
-    const LqrWeights lqr = LqrLawConfig::read(in, robot).weights;
-    w.Q = lqr.stateWeight();
-    w.R = lqr.torqueWeight();
-    w.shaping.pole = w.shaping.zero;
-    return w;
-  }
-  const MpcConfig mpc = *readMpc(scenario);
-  Tasks tasks;
-  mpc.schedule->at(toSeconds(at), toSeconds(at), tasks);
-  w.Q = stateWeightOfTasks(robot, mpc.constraints, tasks, robot.nominal_arm);
-  w.R << Vector3::Constant(tasks.wheel_torque_weight), Vector3::Constant(tasks.arm_torque_weight);
-  w.shaping = mpc.shaping;
-  return w;
-}
 
 double delayOf(const Scenario& scenario, const PlantConfig& plant, double policy_feedback) {
   if (policy_feedback == 0) {
@@ -51,21 +21,23 @@ double delayOf(const Scenario& scenario, const PlantConfig& plant, double policy
 
 }  // namespace
 
-LoopAnalysis analyseLoop(const Scenario& scenario, SimTime at, const std::optional<SimDuration>& delay) {
-  const PlantConfig plant = readPlantConfig(scenario.tree);
-  const RobotParameters robot = believedRobot(scenario);
-  ConfigReader controller(scenario.section("controller"), "controller");
-  ConfigReader tracker_in = controller.child("tracker");
-  const TrackerConfig tracker = TrackerConfig::read(tracker_in, robot);
-  const Weights weights = weightsOf(scenario, robot, at);
+LoopAnalysis analyseLoop(const RunConfig& config, SimTime at,
+                         const std::optional<SimDuration>& delay) {
+  const PlantConfig& plant = config.plant.plant;
+  const RobotParameters& robot = config.believedRobot();
+  const auto cost = config.controller.law->costAt(at, robot.nominal_arm);
+  if (!cost) {
+    throw InputError("the scenario's control law minimises no quadratic cost about an equilibrium, "
+                     "so its loop cannot be analysed; those of the LQR and the MPC can");
+  }
 
   const ReducedDynamics dynamics(robot);
   LoopAnalysis out;
-  out.shaping = weights.shaping;
-  out.torque_weight = weights.R;
+  out.shaping = cost->shaping;
+  out.torque_weight = cost->R;
   out.drives = {plant.actuators, toSeconds(plant.drive_period)};
-  out.delay = delay ? toSeconds(*delay) : delayOf(scenario, plant, tracker.policy_feedback);
-  out.law = designShapedLqr(dynamics, robot.nominal_arm, weights.Q, weights.R, weights.shaping);
+  out.delay = delay ? toSeconds(*delay) : delayOf(config.scenario, plant, config.controller.tracker.policy_feedback);
+  out.law = designShapedLqr(dynamics, robot.nominal_arm, cost->Q, cost->R, cost->shaping);
   out.inertia = freeInertia(dynamics, out.law.equilibrium.x.head<kPositionDim>());
   out.with_ideal_drives = marginsOf(out.law, dynamics, std::nullopt, out.delay);
   out.with_drives = marginsOf(out.law, dynamics, out.drives, out.delay);

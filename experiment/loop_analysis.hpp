@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "controller/torque_loop.hpp"
-#include "experiment/scenario.hpp"
+#include "experiment/run_config.hpp"
 
 namespace ballbot {
 
@@ -35,9 +35,9 @@ struct LoopAnalysis {
 /// @param delay  instead of the one that follows from the scenario's rates: half a tracker period
 ///               and the drives' transport delay where the tracker applies the law's own feedback,
 ///               else plan latency and half a planning period
-/// @throw InputError as the parts' own readers; NumericalError if the weights leave the ball's way
+/// @throw InputError if the law has no such cost; NumericalError if the weights leave the ball's way
 ///        without a price.
-LoopAnalysis analyseLoop(const Scenario& scenario, SimTime at,
+LoopAnalysis analyseLoop(const RunConfig& config, SimTime at,
                          const std::optional<SimDuration>& delay = std::nullopt);
 
 }  // namespace ballbot

@@ -8,6 +8,7 @@
 #include "core/digest.hpp"
 #include "core/error.hpp"
 #include "cosim/lifecycle.hpp"
+#include "experiment/plant_factory.hpp"
 
 namespace ballbot {
 
@@ -16,8 +17,8 @@ std::uint64_t configDigest64(const Scenario& scenario) {
   return hash64(digest.data(), digest.size());
 }
 
-PlantLink::PlantLink(const Scenario& scenario, const RunFolder& folder, Options options)
-    : scenario_(scenario),
+PlantLink::PlantLink(const RunConfig& config, const RunFolder& folder, Options options)
+    : config_(config),
       folder_(folder),
       options_(std::move(options)),
       stderr_path_(folder.path() + "/plant.stderr") {
@@ -36,7 +37,7 @@ PlantLink::~PlantLink() {
 
 void PlantLink::start() {
   if (options_.in_process) {
-    local_ = std::make_unique<Lifecycle>(makePlant(scenario_));
+    local_ = std::make_unique<Lifecycle>(makePlant(config_.plant));
     return;
   }
   LcmAddress address = options_.address;
@@ -51,10 +52,11 @@ void PlantLink::start() {
   }
   transport_ = std::make_unique<LcmTransport>(address, LinkEnd::kMaster);
   RemoteOptions remote;
-  remote.config_digest = configDigest64(scenario_);
+  remote.config_digest = configDigest64(config_.scenario);
   remote.patience = options_.patience;
   // A plant that is served elsewhere runs already; one that we start needs time to set itself up.
   remote.first_patience = child_ ? std::max(options_.patience, std::chrono::milliseconds(30'000)) : options_.patience;
+  remote.added_sensors = config_.plant.plant.added_sensors.signals();
   remote.stop = options_.stop;
   remote.say = options_.say;
   if (child_) {

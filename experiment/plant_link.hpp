@@ -10,18 +10,10 @@
 #include "cosim/participant.hpp"
 #include "cosim/remote_participant.hpp"
 #include "experiment/child_process.hpp"
+#include "experiment/run_config.hpp"
 #include "experiment/run_folder.hpp"
-#include "experiment/scenario.hpp"
 
 namespace ballbot {
-
-/// The plant a scenario describes, in this process.
-/// @throw InputError with file, line and column.
-std::unique_ptr<Participant> makePlant(const Scenario& scenario);
-
-/// Reads everything of a scenario that concerns the plant, without building it.
-/// @throw InputError with file, line and column.
-void checkPlant(const Scenario& scenario);
 
 /// What the two processes of a run compare before they begin.
 std::uint64_t configDigest64(const Scenario& scenario);
@@ -39,7 +31,7 @@ class PlantLink {
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const std::string&)> say;  ///< of a plant that is long at work
   };
-  PlantLink(const Scenario& scenario, const RunFolder& folder, Options options);
+  PlantLink(const RunConfig& config, const RunFolder& folder, Options options);
   /// Ends the child if it still lives, and clears away what it left if it had nothing to say.
   ~PlantLink();
 
@@ -56,7 +48,7 @@ class PlantLink {
   void start();
   std::string troubleOfChild();
 
-  const Scenario& scenario_;
+  const RunConfig& config_;
   const RunFolder& folder_;
   Options options_;
   std::string stderr_path_;

@@ -10,15 +10,4 @@ void Recording::describe(ConfigVisitor& v) {
              checkpoint_period, {0, 1e5});
 }
 
-Recording readRecording(const Scenario& scenario) {
-  Recording out;
-  out.log.sensors = out.log.estimate = scenario.rates.estimator;
-  if (const ConfigNode* node = scenario.tree.find("recording")) {
-    ConfigReader in(*node, "recording");
-    readDescribed(in, out);
-    in.finish();
-  }
-  return out;
-}
-
 }  // namespace ballbot

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "cosim/recorder.hpp"
-#include "experiment/scenario.hpp"
 
 namespace ballbot {
 
@@ -12,9 +11,5 @@ struct Recording {
 
   void describe(ConfigVisitor& v);
 };
-
-/// Sensors and estimates are kept as often as the estimator runs, if nothing else is said.
-/// @throw InputError with file, line and column.
-Recording readRecording(const Scenario& scenario);
 
 }  // namespace ballbot

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "controller/law_factory.hpp"
 #include "controller/policy_sample_blob.hpp"
-#include "core/config_reader.hpp"
-#include "experiment/believed_robot.hpp"
 #include "experiment/rejection_metrics.hpp"
+#include "experiment/run_metrics.hpp"
 #include "model/pd_law.hpp"
 
 namespace ballbot {
@@ -18,27 +16,21 @@ constexpr std::uint32_t kBlobVersion = 7;
 
 }  // namespace
 
-RobotController::RobotController(const Scenario& scenario, EventCalendar& calendar)
-    : release_(scenario.release),
-      tracker_period_(scenario.rates.tracker),
-      plan_latency_(scenario.rates.plan_latency),
-      sensing_(scenario) {
-  const RobotParameters robot = scenarioRobot(scenario);
-
-  ConfigReader in(scenario.section("controller"), "controller");
-  in.raw("known_payload_kg");  // read by believedRobot()
-  law_ = makeControlLaw(in, believedRobot(scenario));
-  ConfigReader tracker_in = in.child("tracker");
-  tracker_ = std::make_unique<PdTracker>(TrackerConfig::read(tracker_in, robot));
-  tracker_in.finish();
-  // A file may hold the settings of several laws; `kind` chooses, the others are passed over.
-  for (const char* other : {"lqr", "mpc", "decoupled"}) in.raw(other);
-  in.finish();
-
+RobotController::RobotController(const RunConfig& config, EventCalendar& calendar)
+    : release_(config.scenario.release),
+      tracker_period_(config.scenario.rates.tracker),
+      plan_latency_(config.scenario.rates.plan_latency),
+      sensing_(config),
+      law_(config.controller.makeLaw()),
+      tracker_(std::make_unique<PdTracker>(config.controller.tracker)) {
+  added_to_plan_.list = config.controller.law->addedToPlan();
+  added_to_plan_.values.assign(added_to_plan_.list.size(), 0.0);
+  const Rates& rates = config.scenario.rates;
   // Within one event: estimate, then plan, then track.
-  estimator_task_ = calendar.addTask("estimator", scenario.rates.estimator, {}, "rates.estimator_period_us");
-  planner_task_ = calendar.addTask("planner", scenario.rates.planner, {}, "rates.planner_period_us");
-  tracker_task_ = calendar.addTask("tracker", scenario.rates.tracker, {}, "rates.tracker_period_us");
+  estimator_task_ =
+      calendar.addTask("estimator", rates.estimator, {}, "rates.estimator_period_us");
+  planner_task_ = calendar.addTask("planner", rates.planner, {}, "rates.planner_period_us");
+  tracker_task_ = calendar.addTask("tracker", rates.tracker, {}, "rates.tracker_period_us");
   if (plan_latency_ > SimDuration::zero()) {
     requireWholeMultiple(plan_latency_, calendar.baseStep(), "rates.plan_latency_us");
   }
@@ -53,6 +45,10 @@ void RobotController::onSensors(SimTime now, const SensorFrame& sensors, DueTask
     law_->setContactForce(sensing_.contactForce());
     out.has_estimate = true;
     sensing_.write(now, out.estimate);
+    if (const auto own = sensing_.estimator().selfAssessment()) {
+      out.has_self_assessment = true;
+      out.self_assessment = *own;
+    }
   }
   // A plan that has become old enough acts before a new one is begun.
   if (plan_pending_ && now >= pending_since_ + plan_latency_) {
@@ -67,8 +63,9 @@ void RobotController::onSensors(SimTime now, const SensorFrame& sensors, DueTask
 void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutput& out) {
   const std::int64_t started = wall_clock_ns_ ? wall_clock_ns_() : 0;
   const PlanReport report = law_->plan(now, sensing_.estimate(now).x, sensors.joint_angle);
-  if (wall_clock_ns_ && plan_times_.size() < plan_times_.capacity()) {
-    plan_times_.push_back({wall_clock_ns_() - started, report.times});
+  if (wall_clock_ns_) {
+    out.plan_timing = {wall_clock_ns_() - started, report.times.approximation_ns,
+                       report.times.riccati_ns, report.times.line_search_ns};
   }
   plan_now_ = false;
   ++plans_;
@@ -90,6 +87,8 @@ void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutpu
   out.plan.fallback = report.fallback;
   out.plan.predicted_decrease = report.predicted_decrease;
   out.plan.regularisation = report.regularisation;
+  std::copy_n(report.terms.added.begin(), added_to_plan_.values.size(),
+              added_to_plan_.values.begin());
   static_assert(std::tuple_size<decltype(out.plan.cost_terms)>::value == kCostTermCount);
   std::copy(report.terms.value.begin(), report.terms.value.end(), out.plan.cost_terms.begin());
   if (plan_latency_ == SimDuration::zero() || !has_policy_) {
@@ -121,10 +120,9 @@ void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutp
   law_->commanded(now, tracker_period_, out.command.torque);
 }
 
-void RobotController::timePlans(PhaseClock wall_clock_ns, std::size_t capacity) {
-  wall_clock_ns_ = wall_clock_ns;
-  law_->setClock(wall_clock_ns);
-  plan_times_.reserve(capacity);  // the control step must not allocate
+void RobotController::setWallClock(PhaseClock now_ns) {
+  wall_clock_ns_ = now_ns;
+  law_->setClock(now_ns);
 }
 
 StateBlob RobotController::saveState() const {
@@ -179,9 +177,10 @@ void RobotController::restore(const StateBlob& blob, bool with_law) {
   in.finish();
 }
 
-std::map<std::string, double> RobotController::counters() const {
+std::map<std::string, double> RobotController::metrics() const {
   const auto number = [](std::int64_t n) { return static_cast<double>(n); };
   std::map<std::string, double> out = rejectionMetrics(sensing_.estimator().rejections());
+  out.merge(feedforward_share_.values());
   out["plans"] = number(plans_);
   out["plans_refused"] = number(plans_refused_);
   out["plans_on_fallback"] = number(plans_on_fallback_);
@@ -192,6 +191,13 @@ std::map<std::string, double> RobotController::counters() const {
     out[kFallbackPercent] = 100 * number(ticks_on_fallback_) / number(ticks_released_);
   }
   return out;
+}
+
+std::vector<std::string> RobotController::metricNames() const {
+  std::vector<std::string> names = FeedforwardShare::names();
+  for (const auto& metric : metrics()) names.push_back(metric.first);
+  names.push_back(kFallbackPercent);
+  return names;
 }
 
 }  // namespace ballbot

@@ -16,48 +16,29 @@
 
 namespace ballbot {
 
-/// Name of a metric: share of the tracker's ticks after the release in which an LQR stood in for lack
-/// of a plan.
-constexpr const char* kFallbackPercent = "fallback_percent";
-
-/// Wall-clock time of one plan() call and of its phases.
-struct PlanTimes {
-  std::int64_t total_ns = 0;
-  PhaseTimes phases;
-};
-
 /// The whole controller of a run: estimator, balancing law and tracker, each at its own period.
 /// It learns about the robot from sensor frames only.
 class RobotController final : public SteppedController {
  public:
-  /// Builds the three parts from the scenario, and their tasks into `calendar`.
-  /// @throw InputError with file, line and column.
-  RobotController(const Scenario& scenario, EventCalendar& calendar);
+  /// Builds the three parts, and their tasks into `calendar`.
+  /// @throw InputError if no law of the scenario's kind balances its robot, or for periods that are
+  /// no multiples of the calendar's step.
+  RobotController(const RunConfig& config, EventCalendar& calendar);
 
   void onSensors(SimTime now, const SensorFrame& sensors, DueTasks due,
                  ControlOutput& out) noexcept override;
+  const AddedSignals& addedToPlan() const override { return added_to_plan_; }
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;
-  /// The same from a controller with another balancing law: what is known of the robot stays, and
-  /// this law makes a plan at the next event, which acts at once.
   /// @throw InputError if the estimator is another kind.
-  void takeOver(const StateBlob& blob);
+  void takeOver(const StateBlob& blob) override;
 
-  /// Counts over the run, for the summary: plans made, refused and made while the LQR stood in, ticks
-  /// with saturated torque or a command that was not finite, and what the estimator rejected; and
-  /// from the release on kFallbackPercent.
-  std::map<std::string, double> counters() const;
-
-  /// For those who hold the estimator's own judgement against the truth.
-  const Estimator& estimator() const { return sensing_.estimator(); }
-
-  /// How much of the commanded torques was planned, since the release.
-  const FeedforwardShare& feedforwardShare() const { return feedforward_share_; }
-
-  /// Measures the wall-clock time of each plan() call, up to `capacity` of them [ns]; a fact of the
-  /// machine, never part of a result.
-  void timePlans(PhaseClock wall_clock_ns, std::size_t capacity);
-  const std::vector<PlanTimes>& planTimes() const { return plan_times_; }
+  /// Plans made, refused and made while the LQR stood in, ticks with saturated torque or a command
+  /// that was not finite, what the estimator rejected, how much of the commanded torques was planned
+  /// since the release, and from there on kFallbackPercent.
+  std::map<std::string, double> metrics() const override;
+  std::vector<std::string> metricNames() const override;
+  void setWallClock(PhaseClock now_ns) override;
 
  private:
   void restore(const StateBlob& blob, bool with_law);
@@ -72,6 +53,7 @@ class RobotController final : public SteppedController {
   TaskId tracker_task_, estimator_task_, planner_task_;
 
   PolicySample policy_;
+  AddedSignals added_to_plan_;
   FeedforwardShare feedforward_share_;
   bool plan_pending_ = false;
   bool has_policy_ = false;
@@ -82,7 +64,6 @@ class RobotController final : public SteppedController {
   std::int64_t ticks_released_ = 0, ticks_on_fallback_ = 0;  ///< the second is part of the first
 
   PhaseClock wall_clock_ns_ = nullptr;
-  std::vector<PlanTimes> plan_times_;
 };
 
 }  // namespace ballbot

@@ -1,11 +1,5 @@
 #include "experiment/robot_sensing.hpp"
 
-#include <fmt/format.h>
-
-#include "core/config_reader.hpp"
-#include "core/error.hpp"
-#include "estimator/estimator_factory.hpp"
-#include "experiment/believed_robot.hpp"
 
 namespace ballbot {
 namespace {
@@ -13,30 +7,12 @@ namespace {
 /// Of the contact force observer: slower than the arm's rate noise, faster than a slip [rad/s].
 constexpr double kContactForceBandwidth = 25;
 
-/// The estimator sees one sensor frame per period. Of an IMU that is faster it would see only the
-/// last sample of each, and take those in between for lost.
-void requireEveryImuSample(const Scenario& scenario) {
-  ConfigReader robot(scenario.section("robot"), "robot");
-  if (!robot.has("sensors")) return;
-  ConfigReader imu = robot.child("sensors").child("imu");
-  const SimDuration period = imu.duration("period_ms"), estimator = scenario.rates.estimator;
-  if (period >= estimator) return;
-  throw InputError(fmt::format(
-      "{} is {}, but the estimator looks once in {}, and would never see {:.0f} % of the samples. Set "
-      "rates.estimator_period_us: {:g}, or the IMU to a period of {} or longer",
-      imu.at("period_ms"), toText(period), toText(estimator),
-      100 * (1 - toSeconds(period) / toSeconds(estimator)), 1e6 * toSeconds(period),
-      toText(estimator)));
-}
-
 }  // namespace
 
-RobotSensing::RobotSensing(const Scenario& scenario)
-    : release_(scenario.release), contact_force_(believedRobot(scenario), kContactForceBandwidth) {
-  requireEveryImuSample(scenario);
-  ConfigReader in(scenario.section("estimator"), "estimator");
-  estimator_ = makeEstimator(in, believedRobot(scenario));
-}
+RobotSensing::RobotSensing(const RunConfig& config)
+    : release_(config.scenario.release),
+      estimator_(config.estimator->make(config.believedRobot())),
+      contact_force_(config.believedRobot(), kContactForceBandwidth) {}
 
 void RobotSensing::update(const SensorFrame& frame) noexcept {
   const bool held = frame.time < release_;

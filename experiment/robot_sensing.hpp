@@ -5,7 +5,7 @@
 #include "core/state_blob.hpp"
 #include "estimator/contact_force_observer.hpp"
 #include "estimator/estimator.hpp"
-#include "experiment/scenario.hpp"
+#include "experiment/run_config.hpp"
 #include "model/reports.hpp"
 #include "model/robot_parameters.hpp"
 
@@ -16,8 +16,7 @@ namespace ballbot {
 /// replay of a log use this one class, so they cannot differ.
 class RobotSensing {
  public:
-  /// @throw InputError with file, line and column.
-  explicit RobotSensing(const Scenario& scenario);
+  explicit RobotSensing(const RunConfig& config);
 
   /// Frames in the order of time. Free of allocation; for the control step.
   void update(const SensorFrame& frame) noexcept;

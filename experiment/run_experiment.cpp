@@ -4,13 +4,11 @@
 #include <chrono>
 #include <optional>
 
-#include "core/config_reader.hpp"
 #include "cosim/recorder.hpp"
 #include "cosim/step_master.hpp"
 #include "experiment/checkpoint_files.hpp"
-#include "experiment/plan_age.hpp"
+#include "experiment/plant_factory.hpp"
 #include "experiment/plant_link.hpp"
-#include "experiment/recording.hpp"
 #include "experiment/robot_controller.hpp"
 #include "experiment/run_metrics.hpp"
 #include "experiment/run_record.hpp"
@@ -60,13 +58,18 @@ bool askForFall(const std::vector<MetricLimit>& requirements) {
   });
 }
 
-/// Reads what stands beside the controller in a scenario. @return every metric its run can have
-std::vector<std::string> checkBeside(const RobotController& controller, const Scenario& scenario) {
-  std::vector<std::string> known = RunMetrics::names(controller);
-  judge(scenario.requirements, {}, known);
-  readRecording(scenario);
-  requireYoungPlans(scenario);
-  checkPlant(scenario);
+std::unique_ptr<SteppedController> makeController(const RunConfig& config, EventCalendar& calendar,
+                                                  const ControllerMaker& make) {
+  if (make) return make(config, calendar);
+  return std::make_unique<RobotController>(config, calendar);
+}
+
+/// Every metric that a run can have. @throw InputError if one is asked for that it cannot have.
+std::vector<std::string> knownMetrics(const RunConfig& config,
+                                      const SteppedController& controller) {
+  std::vector<std::string> known = RunMetrics::names();
+  for (const std::string& name : controller.metricNames()) known.push_back(name);
+  judge(config.scenario.requirements, {}, known);
   return known;
 }
 
@@ -102,29 +105,29 @@ void replacePlant(StepMaster& master, PlantLink& plant) {
 }  // namespace
 
 std::vector<std::string> checkScenario(const Scenario& scenario) {
+  const RunConfig config = readRunConfig(scenario);
   EventCalendar calendar(scenario.rates.base_step);
-  std::vector<std::string> known_metrics = checkBeside(RobotController(scenario, calendar), scenario);
-  RunMetrics metrics(scenario);
-  return known_metrics;
+  return knownMetrics(config, RobotController(config, calendar));
 }
 
 namespace {
 
 /// The run itself, everything about the scenario being said already.
-RunResult runInFolder(const Scenario& scenario, const RunFolder& folder, const RunOptions& options,
-                      EventCalendar& calendar, RobotController& controller,
+RunResult runInFolder(const RunConfig& config, const RunFolder& folder, const RunOptions& options,
+                      EventCalendar& calendar, SteppedController& controller,
                       const std::vector<std::string>& known_metrics) {
-  Recording recording = readRecording(scenario);
-  RunMetrics metrics(scenario);
+  const Scenario& scenario = config.scenario;
+  RunMetrics metrics(config);
   const int core = options.pin && !options.in_process ? preferredCore() : -1;
   if (core >= 0) pinToCore(core);
-  PlantLink plant(scenario, folder, linkOptions(options, core));
+  PlantLink plant(config, folder, linkOptions(options, core));
 
-  const auto planned_plans =
-      static_cast<std::size_t>(scenario.duration / scenario.rates.planner) + 1;
-  controller.timePlans(wallNs, planned_plans);
-  recording.log.log_path = folder.logFile();
-  Recorder recorder(recording.log);
+  controller.setWallClock(wallNs);
+  std::vector<PlanTiming> plan_times;
+  plan_times.reserve(static_cast<std::size_t>(scenario.duration / scenario.rates.planner) + 1);
+  RecorderOptions log = config.recording.log;
+  log.log_path = folder.logFile();
+  Recorder recorder(log);
 
   MasterOptions master_options;
   if (options.start) master_options.start = options.start->time;
@@ -132,7 +135,8 @@ RunResult runInFolder(const Scenario& scenario, const RunFolder& folder, const R
   master_options.stop = options.stop;
   StepMaster master(plant.participant(), controller, calendar, &recorder, master_options);
   master.setObserver([&](const Tick& tick) {
-    metrics.add(tick, controller);
+    metrics.add(tick);
+    if (tick.control.has_plan) plan_times.push_back(tick.control.plan_timing);
     if (options.progress) options.progress(tick.time);
     return !metrics.fell();
   });
@@ -143,7 +147,7 @@ RunResult runInFolder(const Scenario& scenario, const RunFolder& folder, const R
   } else {
     master.initialize();
   }
-  CheckpointKeeper checkpoints(recording.checkpoint_period, folder);
+  CheckpointKeeper checkpoints(config.recording.checkpoint_period, folder);
   checkpoints.startAt(master.time());
   bool replaced = toNs(options.replace_plant_at) < 0;
   do {
@@ -165,15 +169,16 @@ RunResult runInFolder(const Scenario& scenario, const RunFolder& folder, const R
   result.fell = metrics.fell();
   result.trajectory_digest = recorder.trajectoryDigest();
   result.log_digest = recorder.logDigest();
-  result.metrics = metrics.values(controller);
+  result.metrics = metrics.values();
+  result.metrics.merge(controller.metrics());
   result.verdicts = judge(scenario.requirements, result.metrics, known_metrics);
   const auto fallback = result.metrics.find(kFallbackPercent);
   result.no_plan_acted = fallback != result.metrics.end() && fallback->second == 100;
   result.passed = passes(result, scenario.requirements);
 
   writeSummary(scenario, result, folder);
-  writeTiming(result, plant.statistics(), controller.planTimes(), recorder.bytesWritten(), folder);
-  if (options.write_report) writeRunReport(scenario, result, folder);
+  writeTiming(result, plant.statistics(), plan_times, recorder.bytesWritten(), folder);
+  if (options.write_report) writeRunReport(config, result, folder);
   return result;
 }
 
@@ -182,11 +187,10 @@ RunResult runInFolder(const Scenario& scenario, const RunFolder& folder, const R
 RunResult runExperiment(const Scenario& scenario, const std::string& out,
                         const RunOptions& options) {
   // Everything that can be wrong with the scenario is said before anything is started.
+  const RunConfig config = readRunConfig(scenario);
   EventCalendar calendar(scenario.rates.base_step);
-  RobotController controller(scenario, calendar);
-  const std::vector<std::string> known_metrics = checkBeside(controller, scenario);
-  readRecording(scenario);
-  RunMetrics metrics(scenario);
+  const auto controller = makeController(config, calendar, options.make_controller);
+  const std::vector<std::string> known_metrics = knownMetrics(config, *controller);
 
   const RunFolder folder = RunFolder::create(out, scenario.name);
   writeScenario(scenario, folder.path());
@@ -196,7 +200,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out,
   if (options.started) options.started(folder);
 
   try {
-    return runInFolder(scenario, folder, options, calendar, controller, known_metrics);
+    return runInFolder(config, folder, options, calendar, *controller, known_metrics);
   } catch (const InputError&) {  // what a plant of its own finds wrong, it finds before it starts
     folder.discardUnlessRecorded();
     throw;
@@ -204,7 +208,7 @@ RunResult runExperiment(const Scenario& scenario, const std::string& out,
 }
 
 void servePlant(const Scenario& scenario, const LcmAddress& address, ServeOptions options) {
-  const std::unique_ptr<Participant> plant = makePlant(scenario);
+  const std::unique_ptr<Participant> plant = makePlant(readPlantSetup(scenario));
   {
     LcmTransport master_end(address, LinkEnd::kMaster);
     if (const auto who = whoServes(master_end)) {

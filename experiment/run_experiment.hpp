@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,13 +14,21 @@
 #include "cosim/lcm_transport.hpp"
 #include "cosim/serve.hpp"
 #include "cosim/step_master.hpp"
+#include "cosim/stepped_controller.hpp"
+#include "experiment/run_config.hpp"
 #include "experiment/run_folder.hpp"
 #include "experiment/scenario.hpp"
 #include "experiment/verdict.hpp"
 
 namespace ballbot {
 
+/// Makes what balances the robot of a run, and its tasks into the calendar.
+using ControllerMaker =
+    std::function<std::unique_ptr<SteppedController>(const RunConfig&, EventCalendar&)>;
+
 struct RunOptions {
+  /// Instead of the scenario's own controller, whose settings still say what is asked of the run.
+  ControllerMaker make_controller;
   /// Controller and plant in one process, joined by a function call; same bits, no LCM.
   bool in_process = false;
   /// The plant's process is met on the shared LCM address, where others can listen.

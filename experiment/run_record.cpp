@@ -24,9 +24,9 @@ double percentileUs(const std::vector<std::int64_t>& sorted_ns, double p) {
 
 /// Percentiles over all plans of what `get` takes from each.
 template <typename Get>
-Json percentilesUs(const std::vector<PlanTimes>& plans, Get get) {
+Json percentilesUs(const std::vector<PlanTiming>& plans, Get get) {
   std::vector<std::int64_t> sorted;
-  for (const PlanTimes& plan : plans) sorted.push_back(get(plan));
+  for (const PlanTiming& plan : plans) sorted.push_back(get(plan));
   std::sort(sorted.begin(), sorted.end());
   return {{"p50", percentileUs(sorted, 0.5)}, {"p99", percentileUs(sorted, 0.99)},
           {"max", percentileUs(sorted, 1.0)}};
@@ -86,7 +86,7 @@ void writeSummary(const Scenario& scenario, const RunResult& result, const RunFo
 
 void writeTiming(const RunResult& result,
                  const RemoteParticipant::LinkStatistics& link,
-                 const std::vector<PlanTimes>& plan_times, std::int64_t log_bytes,
+                 const std::vector<PlanTiming>& plan_times, std::int64_t log_bytes,
                  const RunFolder& folder) {
   Json t;
   t["wall_s"] = result.wall_seconds;
@@ -95,11 +95,11 @@ void writeTiming(const RunResult& result,
   t["requests_repeated"] = link.repeated;
   t["log_bytes"] = log_bytes;
   if (!plan_times.empty()) {
-    t["plan_us"] = percentilesUs(plan_times, [](const PlanTimes& p) { return p.total_ns; });
+    t["plan_us"] = percentilesUs(plan_times, [](const PlanTiming& p) { return p.total_ns; });
     t["plan_phases_us"] = {
-        {"approximation", percentilesUs(plan_times, [](const PlanTimes& p) { return p.phases.approximation_ns; })},
-        {"riccati", percentilesUs(plan_times, [](const PlanTimes& p) { return p.phases.riccati_ns; })},
-        {"line_search", percentilesUs(plan_times, [](const PlanTimes& p) { return p.phases.line_search_ns; })}};
+        {"approximation", percentilesUs(plan_times, [](const PlanTiming& p) { return p.approximation_ns; })},
+        {"riccati", percentilesUs(plan_times, [](const PlanTiming& p) { return p.riccati_ns; })},
+        {"line_search", percentilesUs(plan_times, [](const PlanTiming& p) { return p.line_search_ns; })}};
   }
   writeTextFile(folder.timingFile(), jsonText(t) + "\n");
 }

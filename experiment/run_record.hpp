@@ -7,7 +7,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "cosim/remote_participant.hpp"
-#include "experiment/robot_controller.hpp"
 #include "experiment/run_experiment.hpp"
 
 namespace ballbot {
@@ -26,7 +25,7 @@ void writeSummary(const Scenario& scenario, const RunResult& result, const RunFo
 /// @param plan_times  of each plan() call
 void writeTiming(const RunResult& result,
                  const RemoteParticipant::LinkStatistics& link,
-                 const std::vector<PlanTimes>& plan_times, std::int64_t log_bytes,
+                 const std::vector<PlanTiming>& plan_times, std::int64_t log_bytes,
                  const RunFolder& folder);
 
 }  // namespace ballbot

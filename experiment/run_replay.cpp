@@ -24,17 +24,18 @@ Vector3 pushPoint(const Push& push, const Vector3& p_WK,
 }
 
 /// What is asked of the end-effector, in W.
-ReplayPose askedPose(const EeReference& reference, SimTime t) {
-  const PoseVector asked = reference.at(t);
+ReplayPose askedPose(const MotionReference& reference, const HomeFrame& home, SimTime t) {
+  const PoseVector asked = reference.eePose(t);
   const Matrix3 R_HE = rotationFromYawPitchRoll(asked[3], asked[4], asked[5]);
-  return pose(reference.home.pointInW(asked.head<3>()),
-              Eigen::Quaterniond(reference.home.R_WH() * R_HE));
+  return pose(home.pointInW(asked.head<3>()),
+              Eigen::Quaterniond(home.R_WH() * R_HE));
 }
 
 }  // namespace
 
 ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot,
-                        const std::vector<Push>& pushes, const EeReference& reference) {
+                        const std::vector<Push>& pushes, const MotionReference& reference,
+                        const HomeFrame& home) {
   ReportReplay replay;
   ReplayBody base{"base", {}}, ball{"ball", {}};
   ReplayFrame hand{"end-effector", SeriesStyle::kMeasured, {}};
@@ -69,7 +70,7 @@ ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot,
     };
     const Eigen::Vector4d& q = truth.quat_WE;
     hand.poses.push_back({listed(truth.p_WE), {q[0], q[1], q[2], q[3]}});
-    asked.poses.push_back(askedPose(reference, truth.time));
+    asked.poses.push_back(askedPose(reference, home, truth.time));
     const auto bodies = bodyPoses(robot, x);
     for (std::size_t i = 0; i < pushes.size(); ++i) {
       const Vector3 p_WP = pushPoint(pushes[i], p_WK, bodies);
@@ -83,7 +84,7 @@ ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot,
   }
   replay.bodies = {std::move(base), std::move(ball)};
   replay.frames = {std::move(hand)};
-  if (reference.moves()) replay.frames.push_back(std::move(asked));
+  if (reference.eeMoves()) replay.frames.push_back(std::move(asked));
   replay.forces = std::move(push_forces);
   if (touched) replay.forces.push_back(std::move(contact));
   return replay;

@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "cosim/log_reader.hpp"
-#include "experiment/ee_reference.hpp"
+#include "metrics/home_frame.hpp"
+#include "model/motion_reference.hpp"
 #include "model/robot_parameters.hpp"
 #include "plant/environment.hpp"
 #include "report/report_data.hpp"
@@ -13,7 +14,9 @@ namespace ballbot {
 /// The 3-D replay of a run from its recorded truth: base, ball, joints, the end-effector's frame and
 /// what was asked of it, pushes where they act, contact.
 /// Nothing if no truth was recorded. `pushes` are the scheduled ones, for where they act.
+/// @param home  frame in which the reference is meant
 ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot,
-                        const std::vector<Push>& pushes, const EeReference& reference);
+                        const std::vector<Push>& pushes, const MotionReference& reference,
+                        const HomeFrame& home);
 
 }  // namespace ballbot

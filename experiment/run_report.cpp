@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -10,19 +10,15 @@
 #include "core/angle.hpp"
 #include "core/key_unit.hpp"
 #include "cosim/log_reader.hpp"
-#include "experiment/believed_robot.hpp"
 #include "experiment/build_info.hpp"
 #include "experiment/contact_report.hpp"
-#include "experiment/ee_reference.hpp"
 #include "experiment/log_tables.hpp"
-#include "experiment/motion_metrics.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/run_replay.hpp"
 #include "experiment/scenario_frame.hpp"
 #include "experiment/text_file.hpp"
 #include "metrics/balance_metrics.hpp"
-#include "plant/environment.hpp"
-#include "plant/faults.hpp"
+#include "metrics/ee_step_metrics.hpp"
 #include "report/write_report.hpp"
 
 namespace ballbot {
@@ -69,12 +65,13 @@ void addBoth(AxesBuilder& axes, const std::string& column, const std::string& na
 }
 
 /// Dashed, where the tasks ask for a place of the ball.
-void addBallReference(const LogTable& truth, const TaskSchedule& schedule, PlotGroup& group) {
+void addBallReference(const LogTable& truth, const MotionReference& reference,
+                      PlotGroup& group) {
   const std::vector<double>& t = truth.column("time_s");
   std::vector<double> asked[2];
   bool any[2] = {false, false};
   for (const double time : t) {
-    const PlaceReference place = placeReference(schedule, time);
+    const PlaceReference place = reference.place(kSimStart + durationFromSeconds(time));
     for (int i = 0; i < 2; ++i) {
       any[i] = any[i] || place.ball_asked[i] > 0;
       asked[i].push_back(place.ball[i]);
@@ -90,7 +87,7 @@ void addBallReference(const LogTable& truth, const TaskSchedule& schedule, PlotG
   }
 }
 
-PlotGroup ballGroup(const std::vector<LogTable>& tables, const std::optional<MpcConfig>& mpc) {
+PlotGroup ballGroup(const std::vector<LogTable>& tables, const MotionReference& reference) {
   PlotGroup group{"Ball", "Where the ball is and what the controller believes.", {}, {}};
   AxesBuilder position(tables, "position", "m");
   AxesBuilder velocity(tables, "velocity", "m/s");
@@ -106,7 +103,7 @@ PlotGroup ballGroup(const std::vector<LogTable>& tables, const std::optional<Mpc
     path.series.push_back({"ball", SeriesStyle::kMeasured, 0, truth->column("time_s"),
                            truth->column("ball_position_W_x"), truth->column("ball_position_W_y")});
     group.paths.push_back(std::move(path));
-    if (mpc) addBallReference(*truth, *mpc->schedule, group);
+    addBallReference(*truth, reference, group);
   }
   return group;
 }
@@ -149,8 +146,8 @@ PlotGroup torqueGroup(const std::vector<LogTable>& tables, const RobotParameters
 }
 
 /// The end-effector's pose with its reference, where there is one.
-PlotGroup handGroup(const RunLog& log, const EeReference& reference) {
-  PlotGroup group{"End-effector", reference.moves() ? "Dashed: what was asked for." : "", {}, {}};
+PlotGroup handGroup(const RunLog& log, const MotionReference& reference) {
+  PlotGroup group{"End-effector", reference.eeMoves() ? "Dashed: what was asked for." : "", {}, {}};
   PlotAxes position{"position", "m", {}, {}}, angles{"orientation", "deg", {}, {}};
   const char* const names[kPoseDim] = {"x", "y", "z", "yaw", "pitch", "roll"};
   for (int i = 0; i < kPoseDim; ++i) {
@@ -159,13 +156,13 @@ PlotGroup handGroup(const RunLog& log, const EeReference& reference) {
     const double scale = i < 3 ? 1 : kDegPerRad;
     for (const TruthFrame& truth : log.truth) {
       measured.t.push_back(toSeconds(truth.time));
-      const PoseVector wanted = reference.at(truth.time);
+      const PoseVector wanted = reference.eePose(truth.time);
       measured.values.push_back(scale * eePose(truth, wanted)[i]);
       asked.values.push_back(scale * wanted[i]);
     }
     asked.t = measured.t;
     PlotAxes& axes = i < 3 ? position : angles;
-    if (reference.moves()) axes.series.push_back(std::move(asked));
+    if (reference.eeMoves()) axes.series.push_back(std::move(asked));
     axes.series.push_back(std::move(measured));
   }
   group.axes = {std::move(position), std::move(angles)};
@@ -187,37 +184,56 @@ PlotGroup armGroup(const std::vector<LogTable>& tables) {
 std::optional<PlotGroup> planGroup(const std::vector<LogTable>& tables) {
   const LogTable* plan = findTable(tables, "plan");
   if (!plan) return std::nullopt;
-  std::vector<std::pair<double, CostTerm>> shares;
-  for (int i = 0; i < kCostTermCount; ++i) {
+  const std::string prefix = "cost_";
+  std::vector<std::pair<double, std::string>> shares;  // of all columns that are terms of the cost
+  for (const LogTable::Column& column : plan->columns) {
+    if (column.name.rfind(prefix, 0) != 0) continue;
     double sum = 0;
-    for (const double v : plan->column(costColumn(CostTerm(i)))) sum += std::abs(v);
-    if (sum > 0) shares.push_back({sum, CostTerm(i)});
+    for (const double v : column.values) sum += std::abs(v);
+    if (sum > 0) shares.push_back({sum, column.name});
   }
   if (shares.empty()) return std::nullopt;
-  std::sort(shares.begin(), shares.end(), std::greater<>());
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
   shares.resize(std::min<std::size_t>(shares.size(), 4));
   AxesBuilder cost(tables, "cost of the plan", "");
   cost.line("plan", "cost", "whole", SeriesStyle::kMeasured, 0);
   for (std::size_t i = 0; i < shares.size(); ++i) {
-    cost.line("plan", costColumn(shares[i].second), costTermName(shares[i].second),
+    cost.line("plan", shares[i].second, shares[i].second.substr(prefix.size()),
               SeriesStyle::kMeasured, static_cast<int>(i) + 1);
   }
   return PlotGroup{
       "Plans", "What the planned motion costs, and its largest parts.", {cost.axes()}, {}};
 }
 
-std::vector<ReportPhase> phasesOf(const Scenario& scenario, const std::vector<Push>& pushes) {
+/// Sensors beside those of every robot, one pair of axes for each unit.
+std::optional<PlotGroup> addedSensorGroup(const RunLog& log, const std::vector<LogTable>& tables) {
+  if (log.added_sensors.list.empty()) return std::nullopt;
+  PlotGroup group{"Added sensors", "", {}, {}};
+  std::map<std::string, AxesBuilder> by_unit;
+  std::map<std::string, int> channels;
+  for (const AddedSignal& signal : log.added_sensors.list) {
+    auto& axes = by_unit.try_emplace(signal.unit, tables, "value", signal.unit).first->second;
+    axes.line("sensors", signal.name, signal.name, SeriesStyle::kMeasured,
+              channels[signal.unit]++);
+  }
+  for (const auto& axes : by_unit) group.axes.push_back(axes.second.axes());
+  return group;
+}
+
+std::vector<ReportPhase> phasesOf(const RunConfig& config) {
+  const Scenario& scenario = config.scenario;
   std::vector<ReportPhase> phases;
   if (scenario.release > kSimStart) {
     phases.push_back(
         {ReportPhase::Kind::kHold, 0, toSeconds(scenario.release), "held in the stand"});
   }
-  for (const Push& push : pushes) {
+  for (const Push& push : config.plant.plant.pushes) {
     phases.push_back({ReportPhase::Kind::kPush, toSeconds(push.start),
                       toSeconds(push.start + push.duration),
                       fmt::format("push {:.0f} N", push.force_W.norm())});
   }
-  for (const Fault& fault : scheduledFaults(scenario.tree)) {
+  for (const Fault& fault : config.plant.plant.faults) {
     phases.push_back(
         {ReportPhase::Kind::kFault, toSeconds(fault.start), toSeconds(fault.end()), toText(fault)});
   }
@@ -247,15 +263,15 @@ void addVerdicts(const RunResult& result, ReportData& data) {
 
 }  // namespace
 
-void writeRunReport(const Scenario& scenario, const RunResult& result, const RunFolder& folder) {
+void writeRunReport(const RunConfig& config, const RunResult& result, const RunFolder& folder) {
+  const Scenario& scenario = config.scenario;
   // Plots show what the controller was asked for and believed: in its frame. The scene is in W.
   const RunLog log_W = readRunLog(folder.logFile());
   RunLog log = log_W;
-  const EeReference reference = readEeReference(scenario);
-  seeFromHome(reference.home, log);
+  const auto reference = config.reference();
+  seeFromHome(config.home, log);
   const std::vector<LogTable> tables = logTables(log);
-  const RobotParameters robot = scenarioRobot(scenario);
-  const std::vector<Push> pushes = scheduledPushes(scenario.tree);
+  const RobotParameters& robot = config.robot;
 
   ReportData data;
   data.title = scenario.name;
@@ -270,17 +286,18 @@ void writeRunReport(const Scenario& scenario, const RunResult& result, const Run
                                                      ? result.metrics.at("largest_tilt_deg")
                                                      : std::nan(""))}};
   addVerdicts(result, data);
-  data.groups = {ballGroup(tables, readMpc(scenario)), baseGroup(tables), handGroup(log, reference),
+  data.groups = {ballGroup(tables, *reference), baseGroup(tables), handGroup(log, *reference),
                  torqueGroup(tables, robot), armGroup(tables)};
   if (auto plans = planGroup(tables)) data.groups.push_back(std::move(*plans));
-  const SurroundingsParameters surroundings = surroundingsOf(scenario.tree);
+  if (auto added = addedSensorGroup(log, tables)) data.groups.push_back(std::move(*added));
+  const SurroundingsParameters& surroundings = config.plant.plant.surroundings;
   if (auto contact = contactGroup(log, robot, surroundings)) {
     data.groups.insert(data.groups.begin(), std::move(*contact));
   }
-  data.phases = phasesOf(scenario, pushes);
+  data.phases = phasesOf(config);
   for (ReportPhase& phase : contactPhases(log)) data.phases.push_back(std::move(phase));
   if (!log.truth.empty()) {
-    data.replay = makeReplay(log_W, robot, pushes, reference);
+    data.replay = makeReplay(log_W, robot, config.plant.plant.pushes, *reference, config.home);
     data.replay->objects = replayObjects(log_W, surroundings);
   }
   data.manifest = {{"scenario", scenario.name},

@@ -5,6 +5,6 @@
 namespace ballbot {
 
 /// Writes report.html of a run from what it recorded. @throw OutputError
-void writeRunReport(const Scenario& scenario, const RunResult& result, const RunFolder& folder);
+void writeRunReport(const RunConfig& config, const RunResult& result, const RunFolder& folder);
 
 }  // namespace ballbot

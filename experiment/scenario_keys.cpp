@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "controller/law_factory.hpp"
+#include "controller/controller_settings.hpp"
 #include "core/angle.hpp"
 #include "core/error.hpp"
 #include "core/nearest_word.hpp"
-#include "estimator/estimator_factory.hpp"
+#include "estimator/estimator_registry.hpp"
 #include "experiment/recording.hpp"
 #include "experiment/scenario.hpp"
 #include "model/robot_reader.hpp"

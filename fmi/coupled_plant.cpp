@@ -8,7 +8,6 @@
 #include "core/error.hpp"
 #include "fmi/native_plant_model.hpp"
 #include "model/signal_table.hpp"
-#include "plant/plant_participant.hpp"
 
 namespace ballbot {
 namespace {
@@ -34,11 +33,15 @@ std::vector<std::vector<double>> getRows(BlobReader& in,
 
 }  // namespace
 
-CoupledPlant::CoupledPlant(const ConfigNode& scenario, const std::string& program)
-    : plan_(planCoupling(scenario)),
+CoupledPlant::CoupledPlant(CouplingPlan plan, const PlantConfig& plant, const std::string& program)
+    : plan_(std::move(plan)),
       controller_(plan_.graph.find(kControllerName)),
       record_(plan_.graph.find(kRecordName)) {
-  if (plan_.native_plant) models_.push_back(std::make_unique<NativePlantModel>(scenario));
+  if (plan_.native_plant) {
+    auto native = std::make_unique<NativePlantModel>(plant);
+    native_ = native.get();
+    models_.push_back(std::move(native));
+  }
   for (const FmuUse& use : plan_.fmus)
     models_.push_back(std::make_unique<FmuProcess>(use, program));
   for (const CouplingNode& node : plan_.graph.nodes()) {
@@ -118,6 +121,10 @@ std::optional<TruthFrame> CoupledPlant::truth() const {
   return plan_.has_truth ? std::optional<TruthFrame>(truth_) : std::nullopt;
 }
 
+const AddedSignals& CoupledPlant::addedSensors() const {
+  return native_ == nullptr ? Participant::addedSensors() : native_->addedSensors();
+}
+
 StateBlob CoupledPlant::saveState() const {
   BlobWriter out;
   putRows(out, outputs_);
@@ -147,12 +154,6 @@ std::uint64_t CoupledPlant::stateDigest() const {
   std::vector<std::uint64_t> digests;
   for (const auto& model : models_) digests.push_back(model->digest());
   return hash64(digests.data(), digests.size() * sizeof(std::uint64_t));
-}
-
-std::unique_ptr<Participant> makePlantWithFmus(const ConfigNode& scenario,
-                                               const std::string& program) {
-  if (!scenario.find("fmus")) return makePlantParticipant(scenario);
-  return std::make_unique<CoupledPlant>(scenario, program);
 }
 
 }  // namespace ballbot

@@ -6,7 +6,9 @@
 
 #include "cosim/participant.hpp"
 #include "fmi/coupling_plan.hpp"
+#include "fmi/native_plant_model.hpp"
 #include "fmi/stepped_model.hpp"
+#include "plant/plant_config.hpp"
 
 namespace ballbot {
 
@@ -17,8 +19,10 @@ namespace ballbot {
 /// All calls throw what the models throw: LostParticipantError names an FMU whose process ended.
 class CoupledPlant final : public Participant {
  public:
+  /// @param plant  of the same scenario; unused where an FMU stands in the plant's place
   /// @param program executable of this program, for the FMUs' processes
-  CoupledPlant(const ConfigNode& scenario, const std::string& program);
+  CoupledPlant(CouplingPlan plan, const PlantConfig& plant,
+               const std::string& program = "/proc/self/exe");
 
   std::string name() const override { return kPlantName; }
   void enterInitializationMode(SimTime start) override;
@@ -29,6 +33,7 @@ class CoupledPlant final : public Participant {
   void reset() override;
   const SensorFrame& sensors() const override { return sensors_; }
   std::optional<TruthFrame> truth() const override;
+  const AddedSignals& addedSensors() const override;
   StateBlob saveState() const override;
   /// If one of the FMUs refuses its part, those before it have changed: reset or restore again.
   void restoreState(const StateBlob& blob) override;
@@ -45,16 +50,12 @@ class CoupledPlant final : public Participant {
   std::size_t controller_, record_;
   /// One per node of the graph but controller and record, which come last and have none.
   std::vector<std::unique_ptr<SteppedModel>> models_;
+  const NativePlantModel* native_ = nullptr;  ///< of the models, where it is one
   Rows inputs_, outputs_;
   Rows before_;  ///< outputs one communication step ago, for delayed connections
   SimTime now_{};
   SensorFrame sensors_;
   TruthFrame truth_;
 };
-
-/// The plant that a scenario describes, with its FMUs if it has any.
-/// @throw InputError with file, line and column.
-std::unique_ptr<Participant> makePlantWithFmus(const ConfigNode& scenario,
-                                               const std::string& program = "/proc/self/exe");
 
 }  // namespace ballbot

@@ -135,9 +135,10 @@ class DescriptionReader {
         unit.m = base->IntAttribute("m");
         unit.s = base->IntAttribute("s");
         unit.rad = base->IntAttribute("rad");
+        unit.K = base->IntAttribute("K");
         // Of units with other dimensions, or an offset, only the name is compared.
         const bool known = real(base, "offset", 0) == 0 && !base->IntAttribute("A") &&
-                           !base->IntAttribute("K") && !base->IntAttribute("mol") &&
+                           !base->IntAttribute("mol") &&
                            !base->IntAttribute("cd");
         unit.has_base = known;
       }

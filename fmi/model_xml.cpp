@@ -66,7 +66,7 @@ void addUnits(XMLElement* root) {
     if (!unit.has_base) continue;
     XMLElement* base = addChild(u, "BaseUnit");
     const std::pair<const char*, int> exponents[] = {
-        {"kg", unit.kg}, {"m", unit.m}, {"s", unit.s}, {"rad", unit.rad}};
+        {"kg", unit.kg}, {"m", unit.m}, {"s", unit.s}, {"K", unit.K}, {"rad", unit.rad}};
     for (const auto& [name, exponent] : exponents) {
       if (exponent != 0) base->SetAttribute(name, exponent);
     }

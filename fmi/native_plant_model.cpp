@@ -1,12 +1,11 @@
 #include "fmi/native_plant_model.hpp"
 
-#include "core/config_node.hpp"
 #include "model/signal_table.hpp"
 
 namespace ballbot {
 
-NativePlantModel::NativePlantModel(const ConfigNode& scenario)
-    : plant_(readPlantConfig(scenario)),
+NativePlantModel::NativePlantModel(const PlantConfig& config)
+    : plant_(config),
       outputs_(rowSize(sensorSignals()) + rowSize(truthSignals()), 0.0) {
   observe();
 }

@@ -11,8 +11,7 @@ namespace ballbot {
 /// sensors, truth; each in the order of model/signal_table.hpp.
 class NativePlantModel final : public SteppedModel {
  public:
-  /// @throw InputError as readPlantConfig().
-  explicit NativePlantModel(const ConfigNode& scenario);
+  explicit NativePlantModel(const PlantConfig& config);
 
   void initialize(SimTime start) override;
   /// No output of the plant follows from an input at once.
@@ -23,6 +22,7 @@ class NativePlantModel final : public SteppedModel {
   StateBlob save() override { return plant_.saveState(); }
   void restore(const StateBlob& blob) override;
   const std::vector<double>& outputs() const override { return outputs_; }
+  const AddedSignals& addedSensors() const { return plant_.addedSensors(); }
   std::uint64_t digest() const override { return plant_.stateDigest(); }
 
  private:

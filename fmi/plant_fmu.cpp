@@ -60,22 +60,6 @@ double half(std::uint64_t hash, int shift) {
 
 }  // namespace
 
-const char* toText(FmuMode mode) {
-  switch (mode) {
-    case FmuMode::kInstantiated:
-      return "instantiated";
-    case FmuMode::kInitialization:
-      return "initialization";
-    case FmuMode::kStep:
-      return "step";
-    case FmuMode::kTerminated:
-      return "terminated";
-    case FmuMode::kError:
-      return "error";
-  }
-  return "unknown";
-}
-
 SimDuration readPlantSubstep(const ConfigNode& scenario) {
   return readPlantConfig(scenario).substep;
 }
@@ -103,14 +87,14 @@ PlantFmu::PlantFmu(const std::string& resources, const std::string& token, int f
 
 PlantFmu::~PlantFmu() = default;
 
-void PlantFmu::demand(const char* call, std::initializer_list<FmuMode> allowed) const {
+void PlantFmu::demand(const char* call, std::initializer_list<LifecycleState> allowed) const {
   if (std::find(allowed.begin(), allowed.end(), mode_) != allowed.end()) return;
   throw CallOrderError(toText(mode_), call,
                        fmt::format("{} is not allowed in state '{}'", call, toText(mode_)));
 }
 
 void PlantFmu::setTimes(double start_s, std::optional<double> stop_s) {
-  demand("setting start and stop time", {FmuMode::kInstantiated});
+  demand("setting start and stop time", {LifecycleState::kInstantiated});
   const SimTime start = timeFromSeconds("start time", start_s);
   std::optional<SimTime> stop;
   if (stop_s) {
@@ -125,21 +109,21 @@ void PlantFmu::setTimes(double start_s, std::optional<double> stop_s) {
 }
 
 void PlantFmu::enterInitialization() {
-  demand("entering initialization", {FmuMode::kInstantiated});
+  demand("entering initialization", {LifecycleState::kInstantiated});
   now_ = start_;
   stale_ = digest_stale_ = true;
-  mode_ = FmuMode::kInitialization;
+  mode_ = LifecycleState::kInitialization;
 }
 
 void PlantFmu::exitInitialization() {
-  demand("leaving initialization", {FmuMode::kInitialization});
+  demand("leaving initialization", {LifecycleState::kInitialization});
   plant();
-  mode_ = FmuMode::kStep;
+  mode_ = LifecycleState::kStep;
 }
 
 void PlantFmu::terminate() {
-  demand("terminate", {FmuMode::kStep});
-  mode_ = FmuMode::kTerminated;
+  demand("terminate", {LifecycleState::kStep});
+  mode_ = LifecycleState::kTerminated;
 }
 
 void PlantFmu::reset() {
@@ -149,11 +133,11 @@ void PlantFmu::reset() {
   start_ = now_ = SimTime{};
   stop_.reset();
   stale_ = digest_stale_ = true;
-  mode_ = FmuMode::kInstantiated;
+  mode_ = LifecycleState::kInstantiated;
 }
 
 void PlantFmu::doStep(double communication_point_s, double step_s) {
-  demand("doStep", {FmuMode::kStep});
+  demand("doStep", {LifecycleState::kStep});
   const StepTarget target = stepTarget(now_, communication_point_s, step_s, stop_);
   if (!target.refusal.empty()) throw InputError("doStep: " + target.refusal);
   const FmuVariables::Groups& g = variables_.groups();
@@ -169,7 +153,7 @@ double PlantFmu::value(ValueReference reference) {
   if (!v) throw InputError(fmt::format("there is no variable with value reference {}", reference));
   if (v->role == VariableRole::kTime) return secondsOf(now_);
   // Before initialisation outputs show their start values, which are zero.
-  if (!v->hasStart() && mode_ != FmuMode::kInstantiated) {
+  if (!v->hasStart() && mode_ != LifecycleState::kInstantiated) {
     if (stale_) refresh();
     const ValueReference digest = variables_.groups().digest;
     if (digest_stale_ && v->reference == digest) {
@@ -185,7 +169,7 @@ double PlantFmu::value(ValueReference reference) {
 void PlantFmu::setValue(ValueReference reference, double value) {
   const FmuVariable* v = variables_.find(reference);
   if (!v) throw InputError(fmt::format("there is no variable with value reference {}", reference));
-  const bool before_start = mode_ == FmuMode::kInstantiated || mode_ == FmuMode::kInitialization;
+  const bool before_start = mode_ == LifecycleState::kInstantiated || mode_ == LifecycleState::kInitialization;
   const std::string name = elementName(*v, static_cast<int>(reference - v->reference));
   if (!v->hasStart()) {
     throw InputError(fmt::format("'{}' cannot be set: it is no input and no parameter", name));
@@ -196,7 +180,7 @@ void PlantFmu::setValue(ValueReference reference, double value) {
                     "initialization ends",
                     name, toText(mode_)));
   }
-  if (!before_start) demand("setting inputs", {FmuMode::kStep});
+  if (!before_start) demand("setting inputs", {LifecycleState::kStep});
   if (!std::isfinite(value)) {
     throw InputError(fmt::format("'{}' is set to {}, must be finite", name, value));
   }
@@ -237,6 +221,8 @@ Plant& PlantFmu::plant() {
 void PlantFmu::refresh() {
   const FmuVariables::Groups& g = variables_.groups();
   readSignals(sensorSignals(), plant().sensors(), &values_[g.sensors]);
+  const std::vector<double>& added = plant().addedSensors().values;
+  std::copy(added.begin(), added.end(), values_.begin() + g.added_sensors);
   readSignals(truthSignals(), plant().truth(), &values_[g.truth]);
   stale_ = false;
 }
@@ -263,7 +249,7 @@ StateBlob PlantFmu::saveState() const {
 
 /// A saved state, taken apart.
 struct PlantFmu::Saved {
-  FmuMode mode{};
+  LifecycleState mode{};
   SimTime start{}, now{};
   std::optional<SimTime> stop;
   std::vector<double> values;
@@ -278,7 +264,7 @@ PlantFmu::Saved PlantFmu::read(const StateBlob& blob) const {
     throw InputError("this state is of an FMU made from another scenario, robot or FMI version");
   }
   Saved s;
-  s.mode = in.get<FmuMode>();
+  s.mode = in.get<LifecycleState>();
   s.start = simTimeFromNs(in.get<std::int64_t>());
   s.now = simTimeFromNs(in.get<std::int64_t>());
   const bool has_stop = in.get<std::uint8_t>() != 0;
@@ -298,7 +284,7 @@ PlantFmu::Saved PlantFmu::read(const StateBlob& blob) const {
     std::copy_n(&settable[next], size, &s.values[v.reference]);
     next += size;
   }
-  if (s.mode > FmuMode::kError || next != settable.size() || s.held.size() != kForceValues) {
+  if (s.mode > LifecycleState::kFailed || next != settable.size() || s.held.size() != kForceValues) {
     throw InputError("this state does not have the form of this FMU's");
   }
   return s;

@@ -8,21 +8,12 @@
 #include "core/config_node.hpp"
 #include "core/state_blob.hpp"
 #include "core/time.hpp"
+#include "cosim/lifecycle_state.hpp"
 #include "fmi/variables.hpp"
 
 namespace ballbot {
 
 class Plant;
-
-/// Where an FMU stands in the life that both versions of FMI give it.
-enum class FmuMode : std::uint8_t {
-  kInstantiated,
-  kInitialization,
-  kStep,
-  kTerminated,
-  kError,  ///< a call failed; reset and restoreState lead out
-};
-const char* toText(FmuMode mode);
 
 /// The plant behind the C interfaces of FMI 2 and FMI 3: variables by reference, time as importers
 /// reckon it, whole state as one blob. What the two versions do differently is in fmi2_plant.cpp
@@ -38,7 +29,7 @@ class PlantFmu {
   PlantFmu(const std::string& resources, const std::string& token, int fmi_version);
   ~PlantFmu();
 
-  FmuMode mode() const { return mode_; }
+  LifecycleState mode() const { return mode_; }
   SimTime now() const { return now_; }
   const FmuVariables& variables() const { return variables_; }
 
@@ -49,7 +40,7 @@ class PlantFmu {
   void doStep(double communication_point_s, double step_s);
   void terminate();
   void reset();
-  void fail() { mode_ = FmuMode::kError; }
+  void fail() { mode_ = LifecycleState::kFailed; }
 
   /// Value of one element; integers, booleans and enumerations as doubles. In initialisation this
   /// builds the plant, if it is an output or a local that is asked for.
@@ -68,7 +59,7 @@ class PlantFmu {
  private:
   struct Saved;
   Saved read(const StateBlob& blob) const;
-  void demand(const char* call, std::initializer_list<FmuMode> allowed) const;
+  void demand(const char* call, std::initializer_list<LifecycleState> allowed) const;
   /// The scenario with the parameters as they are now.
   ConfigNode effectiveScenario(const std::vector<double>& values) const;
   std::unique_ptr<Plant> makePlant(const std::vector<double>& values) const;
@@ -81,7 +72,7 @@ class PlantFmu {
   std::string token_;
   ConfigNode scenario_;
   FmuVariables variables_;
-  FmuMode mode_ = FmuMode::kInstantiated;
+  LifecycleState mode_ = LifecycleState::kInstantiated;
   SimTime start_{}, now_{};
   std::optional<SimTime> stop_;
   std::vector<double> values_;  ///< of all elements; those of the plant as of the last refresh()

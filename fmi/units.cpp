@@ -24,6 +24,7 @@ const std::vector<FmuUnit>& fmuUnits() {
                                              {"N m/rad", true, 1, 1, 2, -2, -1},
                                              {"N m s/rad", true, 1, 1, 2, -1, -1},
                                              {"kg m^2", true, 1, 1, 2, 0, 0},
+                                             {"K", true, 1, 0, 0, 0, 0, 1},
                                              {"rad/s/sqrt(Hz)"},
                                              {"m/s^2/sqrt(Hz)"},
                                              {"rad/s/sqrt(s)"},
@@ -33,7 +34,8 @@ const std::vector<FmuUnit>& fmuUnits() {
 
 bool sameUnit(const FmuUnit& a, const FmuUnit& b) {
   if (!a.has_base || !b.has_base) return a.name == b.name;
-  return a.factor == b.factor && a.kg == b.kg && a.m == b.m && a.s == b.s && a.rad == b.rad;
+  return a.factor == b.factor && a.kg == b.kg && a.m == b.m && a.s == b.s && a.rad == b.rad &&
+         a.K == b.K;
 }
 
 std::string unitName(const std::string& unit, bool real) {

@@ -11,7 +11,7 @@ struct FmuUnit {
   std::string name;
   bool has_base = false;
   double factor = 1;
-  int kg = 0, m = 0, s = 0, rad = 0;
+  int kg = 0, m = 0, s = 0, rad = 0, K = 0;
 };
 
 const std::vector<FmuUnit>& fmuUnits();

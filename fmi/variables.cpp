@@ -4,6 +4,7 @@
 #include "fmi/plant_parameters.hpp"
 #include "fmi/units.hpp"
 #include "model/signal_table.hpp"
+#include "plant/added_sensors.hpp"
 
 namespace ballbot {
 namespace {
@@ -38,6 +39,15 @@ FmuVariables::FmuVariables(const ConfigNode& scenario) {
   for (const auto& s : externalForceSignals()) add(variableOf("force.", s, VariableRole::kInput));
   groups_.sensors = static_cast<ValueReference>(owner_.size());
   for (const auto& s : sensorSignals()) add(variableOf("sensors.", s, VariableRole::kOutput));
+  groups_.added_sensors = static_cast<ValueReference>(owner_.size());
+  for (const AddedSignal& s : addedSensorsOf(scenario).signals().list) {
+    FmuVariable v;
+    v.name = "sensors." + s.name;
+    v.role = VariableRole::kOutput;
+    v.unit = unitName(s.unit, true);
+    v.description = s.words;
+    add(v);
+  }
   groups_.truth = static_cast<ValueReference>(owner_.size());
   for (const auto& s : truthSignals()) add(variableOf("truth.", s, VariableRole::kLocal));
 

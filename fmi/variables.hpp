@@ -33,7 +33,7 @@ struct FmuVariable {
 };
 
 /// All variables of the plant FMU. Their order, names and references are the same for every
-/// scenario; only the start values of parameters come from it.
+/// scenario with the same added sensors; the start values of parameters come from it.
 class FmuVariables {
  public:
   /// @param scenario with includes resolved. @throw InputError for bad values of parameters.
@@ -46,7 +46,7 @@ class FmuVariables {
   }
   /// First element of each group of variables, in which the rows follow one another.
   struct Groups {
-    ValueReference time, command, forces, sensors, truth, digest, parameters;
+    ValueReference time, command, forces, sensors, added_sensors, truth, digest, parameters;
   };
   const Groups& groups() const { return groups_; }
   /// Values of all elements before anything was set.

@@ -22,6 +22,9 @@ constexpr std::array<const char*, kChannelCount> kChannelNames = {
     "SENSOR_FRAME", "TRUTH_FRAME",      "STATE_ESTIMATE",
     "PLAN_REPORT",  "ACTUATOR_COMMAND", "STATE_DIGEST"};
 constexpr const char* kTickDigestsChannel = "TICK_DIGESTS";
+// Of what was added to the frames of two of them (docs/adding.md).
+constexpr const char* kAddedSensorsChannel = "ADDED_SENSORS";
+constexpr const char* kAddedPlanChannel = "ADDED_PLAN";
 
 constexpr const char* channelName(Channel channel) {
   return kChannelNames[static_cast<std::size_t>(channel)];

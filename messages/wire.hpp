@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ballbot_msgs/added_values.hpp"
 #include "ballbot_msgs/step_header.hpp"
 #include "ballbot_msgs/step_reply.hpp"
 #include "ballbot_msgs/step_request.hpp"
@@ -50,6 +51,8 @@ template <>
 bool lengthsHold<ballbot_msgs::step_request>(const std::uint8_t* data, std::size_t size) noexcept;
 template <>
 bool lengthsHold<ballbot_msgs::step_reply>(const std::uint8_t* data, std::size_t size) noexcept;
+template <>
+bool lengthsHold<ballbot_msgs::added_values>(const std::uint8_t* data, std::size_t size) noexcept;
 template <>
 bool lengthsHold<ballbot_msgs::tick_digests>(const std::uint8_t* data, std::size_t size) noexcept;
 

@@ -6,23 +6,14 @@
 #include <vector>
 
 #include "metrics/step_response.hpp"
+#include "model/motion_reference.hpp"
 #include "model/truth.hpp"
 
 namespace ballbot {
 
-/// Components of the end-effector's pose: position [m], then yaw, pitch, roll of E [rad].
-constexpr int kPoseDim = 6;
-using PoseVector = Eigen::Matrix<double, kPoseDim, 1>;
-
 /// Where the end-effector is. Of all ways to write its attitude, turns more and the far side of
 /// pitch 90 degrees included, the one whose angles are nearest to those of `near`.
 PoseVector eePose(const TruthFrame& truth, const PoseVector& near);
-
-/// A step of the reference: at one time, by so much in each component.
-struct EeStep {
-  SimTime at;
-  PoseVector by = PoseVector::Zero();
-};
 
 /// How the end-effector follows steps of its reference, and what the ball does first.
 class EeStepMetrics {

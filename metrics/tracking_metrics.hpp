@@ -4,17 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "model/motion_reference.hpp"
 #include "model/truth.hpp"
 
 namespace ballbot {
-
-/// Where ball and end-effector should be at one instant, and which components are asked for.
-struct PlaceReference {
-  Eigen::Vector2d ball = Eigen::Vector2d::Zero();  ///< in W [m]
-  Vector3 ee = Vector3::Zero();                    ///< p_WE [m]
-  Eigen::Array2d ball_asked = Eigen::Array2d::Zero();  ///< 1 for a component that has a weight, else 0
-  Eigen::Array3d ee_asked = Eigen::Array3d::Zero();
-};
 
 /// How far ball and end-effector are from where they should be, over all times at which they should
 /// be anywhere; only components that are asked for count.

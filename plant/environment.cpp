@@ -45,22 +45,6 @@ void describePushes(ConfigVisitor& v, std::vector<Push>& pushes, const RobotPara
   });
 }
 
-std::vector<Push> readPushes(ConfigReader& environment, const RobotParameters& robot) {
-  std::vector<Push> pushes;
-  ConfigReading reading(environment);
-  describePushes(reading, pushes, robot);
-  return pushes;
-}
-
-std::vector<Push> scheduledPushes(const ConfigNode& scenario) {
-  const ConfigNode* environment = scenario.find("environment");
-  if (!environment) return {};
-  ConfigReader in(scenario);
-  ConfigReader robot_in = in.child("robot");
-  ConfigReader environment_in = in.child("environment");
-  return readPushes(environment_in, readRobot(robot_in));
-}
-
 SimTime Environment::nextChange(SimTime now) const {
   SimTime next = SimTime::max();
   for (const Push& p : pushes_) {

@@ -30,12 +30,6 @@ struct Push {
 
 /// `pushes:` of the `environment:` section; those read are appended.
 void describePushes(ConfigVisitor& v, std::vector<Push>& pushes, const RobotParameters& robot);
-/// @throw InputError for an unknown body or bad values.
-std::vector<Push> readPushes(ConfigReader& environment, const RobotParameters& robot);
-
-/// The pushes of a scenario, for whoever draws them. `scenario` is the whole tree.
-std::vector<Push> scheduledPushes(const ConfigNode& scenario);
-
 /// What the world outside does to the robot whatever the robot does. What it can touch, and what
 /// touches back, is in plant/surroundings.hpp.
 class Environment {

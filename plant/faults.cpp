@@ -84,20 +84,6 @@ void describeFaults(ConfigVisitor& v, std::vector<Fault>& faults, FaultKeys keys
   });
 }
 
-std::vector<Fault> readFaults(ConfigReader& plant) {
-  std::vector<Fault> faults;
-  ConfigReading reading(plant);
-  describeFaults(reading, faults, FaultKeys::kOfItsKind);
-  return faults;
-}
-
-std::vector<Fault> scheduledFaults(const ConfigNode& scenario) {
-  const ConfigNode* plant = scenario.find("plant");
-  if (!plant) return {};
-  ConfigReader in(*plant, "plant");
-  return readFaults(in);
-}
-
 FaultInjector::FaultInjector(std::vector<Fault> faults, const SensorParameters& sensors,
                              std::uint64_t seed)
     : faults_(std::move(faults)),

@@ -49,11 +49,6 @@ std::string toText(const Fault& fault);
 
 /// `faults:` of the `plant:` section; those read are appended.
 void describeFaults(ConfigVisitor& v, std::vector<Fault>& faults, FaultKeys keys);
-/// @throw InputError with file, line and column
-std::vector<Fault> readFaults(ConfigReader& plant);
-/// The faults of a scenario, for whoever draws them. `scenario` is the whole tree.
-std::vector<Fault> scheduledFaults(const ConfigNode& scenario);
-
 /// Between the sensors and those they report to. What is spoiled depends on (seed, fault, sample)
 /// alone; what is held is state.
 class FaultInjector {

@@ -69,7 +69,8 @@ class Plant::Impl {
         faults_(config.faults, config.sensors, config.seed),
         dynamics_(config),
         integrator_(makeIntegrator(config, dynamics_.dim())),
-        state_(config, dynamics_.dim()) {
+        state_(config, dynamics_.dim()),
+        added_sensors_(config.added_sensors, config.seed) {
     reset(kSimStart);
   }
 
@@ -89,6 +90,7 @@ class Plant::Impl {
     faults_.reset();
     meetFaults(dynamics_.multibody().joints());
     observe();
+    added_sensors_.reset(truth_);
   }
 
   void advanceTo(SimTime end, const ActuatorCommand& command) {
@@ -123,6 +125,7 @@ class Plant::Impl {
     visitState(state_, dynamics_.actuators(), saver);
     FaultInjector::visitState(faults_, saver);
     MotionCapture::visitState(motion_capture_, saver);
+    visitAdded(added_sensors_.states(), saver);
     return out.seal("plant", kBlobVersion);
   }
 
@@ -142,6 +145,8 @@ class Plant::Impl {
     FaultInjector::visitState(faults, loader);
     MotionCapture capture = motion_capture_;
     MotionCapture::visitState(capture, loader);
+    AddedSensorBank::States added = added_sensors_.states();
+    visitAdded(added, loader);
     in.finish();
     faults_ = std::move(faults);
     motion_capture_ = std::move(capture);
@@ -149,6 +154,7 @@ class Plant::Impl {
     dynamics_.actuators() = std::move(actuators);
     dynamics_.multibody().realize(state_.y.data());
     observe();
+    added_sensors_.setStates(added);
   }
 
   std::uint64_t digest() const {
@@ -156,12 +162,14 @@ class Plant::Impl {
     visitState(state_, dynamics_.actuators(), hasher_);
     FaultInjector::visitState(faults_, hasher_);
     MotionCapture::visitState(motion_capture_, hasher_);
+    if (added_sensors_.any()) visitAdded(added_sensors_.states(), hasher_);
     return hasher_.hash();
   }
 
   SimTime now() const { return state_.now; }
   const SensorFrame& sensors() const { return sensors_; }
   const TruthFrame& truth() const { return truth_; }
+  const AddedSignals& addedSensors() const { return added_sensors_.signals(); }
 
  private:
   /// Together with the actuators all that must be saved to go on bit for bit.
@@ -188,6 +196,11 @@ class Plant::Impl {
     PlantDynamics::Actuators::visitState(actuators, visit);
     DriveBank::visitState(s.drives, visit);
     Imu::visitState(s.imu, visit);
+  }
+
+  template <typename States, typename Visitor>
+  static void visitAdded(States&& states, Visitor& visit) {
+    for (auto& state : states) visit(state);
   }
 
   bool isMultiple(SimTime t, SimDuration period) const {
@@ -269,6 +282,10 @@ class Plant::Impl {
       motion_capture_.take({p_WK.x(), p_WK.y(), s.yaw});
     }
     meetFaults(robot.joints());
+    if (added_sensors_.any() && isMultiple(s.now, config_.drive_period)) {
+      observe();
+      added_sensors_.advance(truth_, config_.drive_period);
+    }
   }
 
   void meetFaults(const JointMotion& joints) {
@@ -345,6 +362,7 @@ class Plant::Impl {
   State state_;
   SensorFrame sensors_;
   TruthFrame truth_;
+  AddedSensorBank added_sensors_;
   mutable StateHasher hasher_;
 };
 
@@ -356,6 +374,7 @@ void Plant::advanceTo(SimTime t, const ActuatorCommand& command) { impl_->advanc
 void Plant::setExternalForces(const ExternalForces& forces) { impl_->setExternalForces(forces); }
 const SensorFrame& Plant::sensors() const { return impl_->sensors(); }
 const TruthFrame& Plant::truth() const { return impl_->truth(); }
+const AddedSignals& Plant::addedSensors() const { return impl_->addedSensors(); }
 StateBlob Plant::saveState() const { return impl_->save(); }
 void Plant::restoreState(const StateBlob& blob) { impl_->restore(blob); }
 std::uint64_t Plant::stateDigest() const { return impl_->digest(); }

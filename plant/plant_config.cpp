@@ -35,6 +35,7 @@ void describePlantSection(ConfigVisitor& v, PlantConfig& c, FaultKeys fault_keys
   v.vector(may("base_com_offset_m",
                "how far off the base's centre of mass is from what the controller's model says"),
            c.base_com_offset, {-0.1, 0.1});
+  c.added_sensors.describe(v);
   v.section(may("motion_capture", "cameras that report the ball's place and the base's yaw"),
             [&](ConfigVisitor& in) { c.motion_capture.emplace().describe(in); });
   describeFaults(v, c.faults, fault_keys);
@@ -149,10 +150,16 @@ void InitialCondition::describe(ConfigVisitor& v, const RobotParameters& robot) 
 
 PlantConfig readPlantConfig(const ConfigNode& scenario) {
   ConfigReader in(scenario);
+  ConfigReader robot = in.child("robot");
+  return readPlantConfig(scenario, readRobot(robot));
+}
+
+PlantConfig readPlantConfig(const ConfigNode& scenario, const RobotParameters& nominal) {
+  ConfigReader in(scenario);
   PlantConfig c;
   c.seed = static_cast<std::uint64_t>(in.numberOr("seed", 1, {0, 9007199254740992.0}));
   ConfigReader robot = in.child("robot");
-  c.robot = readRobot(robot);
+  c.robot = nominal;
   c.actuators = readActuators(robot);
   ConfigReader sensors = robot.child("sensors");
   readDescribed(sensors, c.sensors);

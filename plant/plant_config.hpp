@@ -6,6 +6,7 @@
 #include "core/time.hpp"
 #include "model/robot_parameters.hpp"
 #include "model/robot_reader.hpp"
+#include "plant/added_sensors.hpp"
 #include "plant/environment.hpp"
 #include "plant/faults.hpp"
 #include "plant/motion_capture.hpp"
@@ -86,6 +87,7 @@ struct PlantConfig {
   std::vector<Fault> faults;
   SurroundingsParameters surroundings;
   std::optional<MotionCaptureParameters> motion_capture;
+  AddedSensorList added_sensors;
   std::uint64_t seed = 1;
 };
 
@@ -93,6 +95,8 @@ struct PlantConfig {
 /// sections are left to those who use them.
 /// @throw InputError with file, line and column.
 PlantConfig readPlantConfig(const ConfigNode& scenario);
+/// The same of a scenario whose robot is read already.
+PlantConfig readPlantConfig(const ConfigNode& scenario, const RobotParameters& robot);
 
 /// All keys that are read of the sections `plant:`, `initial:` and `environment:` and of the
 /// `sensors:` of `robot:`, with their defaults; for references and the like.

@@ -14,8 +14,4 @@ void PlantParticipant::doStep(SimTime now, SimDuration step, const ActuatorComma
   plant_.advanceTo(now + step, command);
 }
 
-std::unique_ptr<Participant> makePlantParticipant(const ConfigNode& scenario) {
-  return std::make_unique<PlantParticipant>(readPlantConfig(scenario));
-}
-
 }  // namespace ballbot

@@ -23,6 +23,7 @@ class PlantParticipant final : public Participant {
   void reset() override { plant_.reset(kSimStart); }
   const SensorFrame& sensors() const override { return plant_.sensors(); }
   std::optional<TruthFrame> truth() const override { return plant_.truth(); }
+  const AddedSignals& addedSensors() const override { return plant_.addedSensors(); }
   StateBlob saveState() const override { return plant_.saveState(); }
   void restoreState(const StateBlob& blob) override { plant_.restoreState(blob); }
   std::uint64_t stateDigest() const override { return plant_.stateDigest(); }
@@ -30,8 +31,5 @@ class PlantParticipant final : public Participant {
  private:
   Plant plant_;
 };
-
-/// The plant that a scenario describes. @throw InputError with file, line and column.
-std::unique_ptr<Participant> makePlantParticipant(const ConfigNode& scenario);
 
 }  // namespace ballbot

@@ -42,15 +42,6 @@ void SurroundingsParameters::describe(ConfigVisitor& v) {
             [&](ConfigVisitor& in) { door.emplace().describe(in); });
 }
 
-SurroundingsParameters surroundingsOf(const ConfigNode& scenario) {
-  const ConfigNode* environment = scenario.find("environment");
-  if (!environment) return {};
-  ConfigReader in(*environment, "environment");
-  SurroundingsParameters p;
-  readDescribed(in, p);
-  return p;
-}
-
 void Surroundings::place(double* s) const {
   std::fill_n(s, stateDim(), 0.0);
   if (p_.door) s[kAngle] = doorAtRest(*p_.door).angle;

@@ -29,9 +29,6 @@ struct SurroundingsParameters {
   void describe(ConfigVisitor& v);
 };
 
-/// The same from a whole scenario, for whoever draws or judges it.
-SurroundingsParameters surroundingsOf(const ConfigNode& scenario);
-
 /// Wall and door as part of an ordinary differential equation:
 ///
 ///   s = (door angle, door rate, stretch of the contact with the door (2)

@@ -123,10 +123,12 @@ std::string tableText(const Scenario& scenario, const LoopAnalysis& a) {
 }
 
 ExitCode bode(const BodeArguments& arguments) {
-  const Scenario scenario = loadScenario(arguments.scenario, arguments.overrides);
+  const RunConfig config =
+      readRunConfig(loadScenario(arguments.scenario, arguments.overrides));
+  const Scenario& scenario = config.scenario;
   std::optional<SimDuration> delay;
   if (arguments.delay_ms) delay = durationFromSeconds(1e-3 * *arguments.delay_ms);
-  const LoopAnalysis analysis = analyseLoop(scenario, kSimStart + durationFromSeconds(arguments.at_s), delay);
+  const LoopAnalysis analysis = analyseLoop(config, kSimStart + durationFromSeconds(arguments.at_s), delay);
   if (!arguments.csv.empty()) writeTextFile(arguments.csv, csvText(analysis));
   if (!arguments.out.empty()) writeTextFile(arguments.out, bodeFigure(scenario.name, analysis));
   if (arguments.json) {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/angle.hpp"
-#include "experiment/plant_link.hpp"
+#include "experiment/plant_factory.hpp"
 #include "experiment/scenario.hpp"
 #include "hil/bench_config.hpp"
 #include "hil/emulator/elastic_rig.hpp"
@@ -34,7 +34,7 @@ struct DrivesArguments {
 std::unique_ptr<Participant> robotBehind(const EmulatorConfig& emulator, const BenchConfig& bench,
                                          const std::string& path) {
   if (emulator.elastic_rig) return std::make_unique<ElasticRig>(*emulator.elastic_rig);
-  if (!emulator.rig) return makePlant(loadBenchScenario(bench, path));
+  if (!emulator.rig) return makePlant(readPlantSetup(loadBenchScenario(bench, path)));
   JointRigOptions rig;
   rig.bandwidth_Hz = emulator.rig_bandwidth_Hz;
   rig.damping_ratio = emulator.rig_damping_ratio;

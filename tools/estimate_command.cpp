@@ -97,10 +97,10 @@ void printTable(const LogEstimate& e, const std::vector<std::string>& files) {
 
 ExitCode estimateRun(const EstimateArguments& a) {
   const Sources from = sourcesOf(a);
-  const Scenario scenario = loadScenario(from.scenario, a.overrides);
+  const RunConfig config = readRunConfig(loadScenario(from.scenario, a.overrides));
   const RunLog log = std::filesystem::is_directory(a.run) ? readRecordedLog(RunFolder::open(a.run))
                                                           : readRunLog(from.log);
-  const LogEstimate estimate = estimateLog(scenario, log);
+  const LogEstimate estimate = estimateLog(config, log);
 
   RunLog made;
   made.estimates = estimate.estimates;
@@ -111,7 +111,7 @@ ExitCode estimateRun(const EstimateArguments& a) {
   writeTextFile(files.back(), jsonText(toJson(estimate)) + "\n");
   if (!a.no_report) {
     files.push_back(from.out + "/report.html");
-    writeEstimateReport(scenario, estimate, sameSettings(a), files.back());
+    writeEstimateReport(config, estimate, sameSettings(a), files.back());
   }
   if (a.json) {
     nlohmann::ordered_json out = toJson(estimate);

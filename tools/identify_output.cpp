@@ -6,10 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/angle.hpp"
-#include "experiment/scenario.hpp"
+#include "experiment/run_config.hpp"
 #include "experiment/text_file.hpp"
 #include "hil/identify/bode_figure.hpp"
-#include "plant/plant_config.hpp"
 #include "tools/bench_scenario.hpp"
 
 namespace ballbot {
@@ -56,14 +55,13 @@ ScenarioToChange scenarioToChange(const std::string& path, const BenchConfig& be
   out.path = path.empty() ? benchScenarioPath(bench, bench_path) : path;
   const Scenario scenario =
       loadScenario(out.path, path.empty() ? bench.overrides : std::vector<std::string>{});
-  const PlantConfig plant = readPlantConfig(scenario.tree);
+  const RunConfig config = readRunConfig(scenario);
+  const PlantConfig& plant = config.plant.plant;
   const DriveConfig& d = bench.drives[static_cast<std::size_t>(drive)];
   out.configured = {plant.actuators.of(drive),   toSeconds(plant.drive_period),
                     plant.transport_delay_ticks, d.torque_delay,
                     d.torque_frequency_Hz,       d.torque_damping_ratio};
-  const ConfigNode* controller = scenario.tree.find("controller");
-  const ConfigNode* kind = controller == nullptr ? nullptr : controller->find("kind");
-  out.mpc = kind != nullptr && kind->text() == "mpc";
+  out.mpc = config.controller.law->shapesWheelTorques();
   if (!out.mpc) {
     fmt::print(stderr,
                "identify: {} has no MPC whose frequency shaping could be matched; --scenario names "

@@ -7,11 +7,10 @@
 #include "core/angle.hpp"
 #include "cosim/log_reader.hpp"
 #include "experiment/contact_report.hpp"
-#include "experiment/ee_reference.hpp"
 #include "experiment/log_tables.hpp"
+#include "experiment/run_config.hpp"
 #include "experiment/scenario_frame.hpp"
 #include "metrics/ee_step_metrics.hpp"
-#include "plant/environment.hpp"
 #include "report/svg_figure.hpp"
 
 namespace ballbot {
@@ -23,12 +22,11 @@ constexpr std::size_t kSamples = 400;
 /// The panels of one run's picture.
 class Panels {
  public:
-  Panels(const Scenario& scenario, const RunLog& log)
+  Panels(const RunConfig& config, const RunLog& log)
       : log_(log),
         tables_(logTables(log)),
-        reference_(readEeReference(scenario)),
-        schedule_(reference_.schedule) {
-    for (const Push& push : scheduledPushes(scenario.tree)) {
+        reference_(config.reference()) {
+    for (const Push& push : config.plant.plant.pushes) {
       shaded_.push_back({toSeconds(push.start), toSeconds(push.end())});
     }
     for (const ReportPhase& phase : contactPhases(log))
@@ -53,20 +51,20 @@ class Panels {
         addWithReference(
             axes, i == 0 ? "x" : "y", i, ballAsked(i), 1,
             [i](const TruthFrame& m) { return m.state[kBallX + i]; },
-            [this, i](double t) { return tasksAt(t).ball_position[i]; });
+            [this, i](double t) { return placeAt(t).ball[i]; });
     } else if (name == "ee") {
       axes.y_label = "end-effector [m]";
       for (int i = 0; i < 3; ++i)
         addWithReference(
             axes, std::string(1, static_cast<char>('x' + i)), i, eeAsked(i), 1,
             [i](const TruthFrame& m) { return m.p_WE[i]; },
-            [this, i](double t) { return tasksAt(t).p_WE[i]; });
+            [this, i](double t) { return placeAt(t).ee[i]; });
     } else if (name == "ee_angles") {
       axes.y_label = "end-effector [deg]";
       const char* const names[] = {"yaw", "pitch", "roll"};
       for (int i = 0; i < 3; ++i)
         addWithReference(
-            axes, names[i], i, schedule_ != nullptr, kDegPerRad,
+            axes, names[i], i, reference_->eeMoves(), kDegPerRad,
             [this, i](const TruthFrame& m) { return poseOf(m)[3 + i]; },
             [this, i](double t) { return askedPose(t)[3 + i]; });
     } else if (name == "tilt") {
@@ -101,19 +99,17 @@ class Panels {
     return axes;
   }
 
-  PoseVector askedPose(double t) const { return reference_.at(kSimStart + durationFromSeconds(t)); }
-  PoseVector poseOf(const TruthFrame& m) const { return eePose(m, reference_.at(m.time)); }
+  PoseVector askedPose(double t) const {
+    return reference_->eePose(kSimStart + durationFromSeconds(t));
+  }
+  PoseVector poseOf(const TruthFrame& m) const { return eePose(m, reference_->eePose(m.time)); }
 
   /// Whether a component has a weight at the run's end.
-  bool ballAsked(int i) const {
-    return schedule_ && tasksAt(endTime()).ball_position_weight[i] > 0;
-  }
-  bool eeAsked(int i) const { return schedule_ && tasksAt(endTime()).ee_position_weight[i] > 0; }
+  bool ballAsked(int i) const { return placeAt(endTime()).ball_asked[i] > 0; }
+  bool eeAsked(int i) const { return placeAt(endTime()).ee_asked[i] > 0; }
   double endTime() const { return log_.truth.empty() ? 0 : toSeconds(log_.truth.back().time); }
-  Tasks tasksAt(double t) const {
-    Tasks tasks;
-    schedule_->at(t, t, tasks);
-    return tasks;
+  PlaceReference placeAt(double t) const {
+    return reference_->place(kSimStart + durationFromSeconds(t));
   }
 
   template <typename Value>
@@ -139,8 +135,7 @@ class Panels {
 
   const RunLog& log_;
   std::vector<LogTable> tables_;
-  EeReference reference_;
-  std::shared_ptr<const TaskSchedule> schedule_;
+  std::shared_ptr<const MotionReference> reference_;
   std::vector<SvgSpan> shaded_;
   std::size_t stride_ = 1;
 };
@@ -149,9 +144,10 @@ class Panels {
 
 std::string reproductionFigure(const Scenario& scenario, const std::string& log_file,
                                const std::vector<std::string>& panels) {
+  const RunConfig config = readRunConfig(scenario);
   RunLog log = readRunLog(log_file);
-  seeFromHome(homeFrame(scenario), log);
-  const Panels source(scenario, log);
+  seeFromHome(config.home, log);
+  const Panels source(config, log);
   std::vector<SvgAxes> axes;
   for (const std::string& name : panels) axes.push_back(source.panel(name));
   return svgFigure("", axes);

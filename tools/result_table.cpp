@@ -6,7 +6,7 @@
 
 #include "core/key_unit.hpp"
 #include "experiment/rejection_metrics.hpp"
-#include "experiment/robot_controller.hpp"
+#include "experiment/run_metrics.hpp"
 #include "metrics/limit_margins.hpp"
 
 namespace ballbot {

@@ -64,14 +64,14 @@ void viewRun(const ViewArguments& a) {
 }
 
 void viewLive(const ViewArguments& a) {
-  const Scenario scenario = loadScenario(a.what, a.overrides);
-  LiveScene scene(scenario);
+  const RunConfig config = readRunConfig(loadScenario(a.what, a.overrides));
+  LiveScene scene(config);
   HttpServer server(a.port);
   server.onGet("/", "text/html; charset=utf-8", [] { return livePage(); });
   server.onGet("/scene.json", "application/json", [text = scene.description()] { return text; });
   LiveFeed feed({a.lcm_url, a.channel}, std::move(scene));
   server.onEvents("/events", feed);
-  serveUntilInterrupted(server, fmt::format("runs of {} on {}", scenario.name, a.lcm_url), a.json);
+  serveUntilInterrupted(server, fmt::format("runs of {} on {}", config.scenario.name, a.lcm_url), a.json);
 }
 
 }  // namespace

@@ -5,11 +5,11 @@
 #include <gmock/gmock.h>
 
 #include "controller/rigid_arm.hpp"
-#include "controller/law_factory.hpp"
 #include "core/error.hpp"
 #include "tests/controller/support/allocation_counter.hpp"
 #include "tests/controller/support/closed_loop.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/controller/support/make_law.hpp"
 
 namespace ballbot {
 namespace {
@@ -87,7 +87,7 @@ decoupled:
 std::unique_ptr<ControlLaw> decoupled(const RobotParameters& robot, const std::string& text = kConfig) {
   const ConfigNode tree = parseYaml(text, "controller.yaml");
   ConfigReader in(tree);
-  return makeControlLaw(in, robot);
+  return test::makeControlLaw(in, robot);
 }
 
 TEST(DecoupledLaw, TheBaseDoesNotNoticeWhatTheArmDoes) {

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "controller/law_factory.hpp"
+#include "controller/controller_settings.hpp"
 #include "core/config_listing.hpp"
 #include "core/yaml_file.hpp"
 #include "tests/model/robot_fixture.hpp"

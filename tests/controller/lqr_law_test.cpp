@@ -5,10 +5,10 @@
 
 #include <gmock/gmock.h>
 
-#include "controller/law_factory.hpp"
 #include "core/error.hpp"
 #include "tests/controller/support/closed_loop.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/controller/support/make_law.hpp"
 
 namespace ballbot {
 namespace {
@@ -111,14 +111,14 @@ TEST_F(LqrLawTest, ContinuesBitForBitFromASavedState) {
 
 TEST_F(LqrLawTest, ComesFromTheFactoryByItsKind) {
   ConfigReader in(tree_);
-  EXPECT_NE(dynamic_cast<LqrLaw*>(makeControlLaw(in, robot_).get()), nullptr);
+  EXPECT_NE(dynamic_cast<LqrLaw*>(test::makeControlLaw(in, robot_).get()), nullptr);
 }
 
 TEST_F(LqrLawTest, NamesAJointThatCannotReachItsSetPoint) {
   applyOverride(tree_, "lqr.set_point.arm_rad=[0, -0.6, 4]");
   ConfigReader in(tree_);
   try {
-    makeControlLaw(in, robot_);
+    test::makeControlLaw(in, robot_);
     FAIL() << "no error";
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("arm_rad puts joint 3"));
@@ -130,7 +130,7 @@ TEST_F(LqrLawTest, ListsTheKindsThereAre) {
   applyOverride(tree_, "kind=magic");
   ConfigReader in(tree_);
   try {
-    makeControlLaw(in, robot_);
+    test::makeControlLaw(in, robot_);
     FAIL() << "no error";
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("kind is 'magic', must be one of: lqr"));

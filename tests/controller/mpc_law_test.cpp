@@ -7,7 +7,6 @@
 #include <gmock/gmock.h>
 
 #include "controller/background_mpc_law.hpp"
-#include "controller/law_factory.hpp"
 #include "core/error.hpp"
 #include "tests/controller/support/allocation_counter.hpp"
 #include "tests/controller/support/closed_loop.hpp"

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "core/config_reader.hpp"
-#include "estimator/estimator_factory.hpp"
+#include "estimator/estimator_registry.hpp"
 #include "tests/estimator/support/smooth_motion.hpp"
 #include "tests/plant/support/described_keys.hpp"
 
@@ -42,7 +42,7 @@ TEST(DescribeEstimator, TellsWhatEitherKindTakes) {
       }
     }
     ConfigReader in(tree);
-    EXPECT_NO_THROW(makeEstimator(in, estimatorTestRobot())) << kind;
+    EXPECT_NO_THROW(readEstimator(in)->make(estimatorTestRobot())) << kind;
   }
 }
 

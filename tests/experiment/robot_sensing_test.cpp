@@ -14,7 +14,7 @@ Scenario balance(const std::vector<std::string>& overrides) {
 
 std::string errorOf(const std::vector<std::string>& overrides) {
   try {
-    RobotSensing sensing(balance(overrides));
+    RobotSensing sensing(readRunConfig(balance(overrides)));
   } catch (const InputError& e) {
     return e.what();
   }

@@ -31,6 +31,10 @@ std::string spring(const std::string& parameters, const std::string& connections
   return "{name: spring, file: '" + springFmu() + "', patience_s: " + patience_s +
          ", parameters: {" + parameters + "}, connections: [" + connections + "]}";
 }
+CoupledPlant coupledPlant(const ConfigNode& scenario) {
+  return CoupledPlant(planCoupling(scenario), readPlantConfig(scenario), kProgram);
+}
+
 const char* const kHandToSpring = "{from: plant.truth.p_WE, to: spring.hand}";
 const char* const kSpringToHand = "{from: spring.force, to: plant.force.end_effector_W}";
 std::string bothWays() { return std::string(kHandToSpring) + ", " + kSpringToHand; }
@@ -60,7 +64,7 @@ void steps(Participant& plant, int first, int last) {
 class PlantFmuAsPlant : public ::testing::TestWithParam<int> {};
 
 TEST_P(PlantFmuAsPlant, IsTheNativePlantToTheBit) {
-  CoupledPlant imported(scenarioWith(plantFmu(GetParam())), kProgram);
+  CoupledPlant imported = coupledPlant(scenarioWith(plantFmu(GetParam())));
   Plant native(readPlantConfig(testScenario()));
   imported.enterInitializationMode(kSimStart);
   native.reset(kSimStart);
@@ -81,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Fmi, PlantFmuAsPlant, ::testing::Values(2, 3),
 // The law of the coupling: what acts on the plant during a step is what the spring makes of the
 // plant's own values at the beginning of that step.
 TEST(CoupledPlant, AForceFollowsFromThePlantsValuesOfTheSameInstant) {
-  CoupledPlant plant(scenarioWith(spring("stiffness: 40, 'anchor[3]': 2", bothWays())), kProgram);
+  CoupledPlant plant = coupledPlant(scenarioWith(spring("stiffness: 40, 'anchor[3]': 2", bothWays())));
   plant.enterInitializationMode(kSimStart);
   for (int k = 1; k <= 80; ++k) {
     const Vector3 expected = 40 * (Vector3(0, 0, 2) - plant.truth()->p_WE);
@@ -93,8 +97,7 @@ TEST(CoupledPlant, AForceFollowsFromThePlantsValuesOfTheSameInstant) {
 TEST(CoupledPlant, ADelayedForceIsThatOfTheStepBefore) {
   const std::string delayed =
       "{from: spring.force, to: plant.force.end_effector_W, delay_steps: 1}";
-  CoupledPlant plant(scenarioWith(spring("stiffness: 40", kHandToSpring + (", " + delayed))),
-                     kProgram);
+  CoupledPlant plant = coupledPlant(scenarioWith(spring("stiffness: 40", kHandToSpring + (", " + delayed))));
   plant.enterInitializationMode(kSimStart);
   Vector3 before = plant.truth()->p_WE;
   steps(plant, 1, 50);
@@ -110,8 +113,7 @@ TEST(CoupledPlant, ADelayedForceIsThatOfTheStepBefore) {
 
 // Another importer of the same equations: the plant, told the spring's force by hand.
 TEST(CoupledPlant, IsThePlantWithTheForceAppliedByHand) {
-  CoupledPlant coupled(scenarioWith(spring("stiffness: 40, 'anchor[1]': 0.5", bothWays())),
-                       kProgram);
+  CoupledPlant coupled = coupledPlant(scenarioWith(spring("stiffness: 40, 'anchor[1]': 0.5", bothWays())));
   Plant native(readPlantConfig(testScenario()));
   coupled.enterInitializationMode(kSimStart);
   native.reset(kSimStart);
@@ -130,7 +132,7 @@ TEST(CoupledPlant, ContinuesToTheBitAlsoInOtherProcesses) {
        {spring("stiffness: 40", bothWays()),
         plantFmu(2) + ", " + spring("stiffness: 40", delayedWays()), plantFmu(3)}) {
     const ConfigNode scenario = scenarioWith(fmus);
-    CoupledPlant whole(scenario, kProgram);
+    CoupledPlant whole = coupledPlant(scenario);
     whole.enterInitializationMode(kSimStart);
     steps(whole, 1, 60);
     const StateBlob middle = whole.saveState();
@@ -141,7 +143,7 @@ TEST(CoupledPlant, ContinuesToTheBitAlsoInOtherProcesses) {
     steps(whole, 61, 100);
     EXPECT_EQ(whole.stateDigest(), digest);
 
-    CoupledPlant other(scenario, kProgram);
+    CoupledPlant other = coupledPlant(scenario);
     other.enterInitializationMode(kSimStart);
     other.restoreState(middle);
     steps(other, 61, 100);
@@ -151,9 +153,8 @@ TEST(CoupledPlant, ContinuesToTheBitAlsoInOtherProcesses) {
 }
 
 TEST(CoupledPlant, AForeignStateIsRefused) {
-  CoupledPlant one(scenarioWith(spring("", bothWays())), kProgram);
-  CoupledPlant other(scenarioWith(spring("", "{from: spring.force, to: plant.force.base_W}")),
-                     kProgram);
+  CoupledPlant one = coupledPlant(scenarioWith(spring("", bothWays())));
+  CoupledPlant other = coupledPlant(scenarioWith(spring("", "{from: spring.force, to: plant.force.base_W}")));
   one.enterInitializationMode(kSimStart);
   other.enterInitializationMode(kSimStart);
   EXPECT_THAT(messageOf([&] { other.restoreState(StateBlob(100, 1)); }),
@@ -164,7 +165,7 @@ TEST(CoupledPlant, AForeignStateIsRefused) {
 TEST(CoupledPlant, TroubleInAnFmuIsAnErrorInWords) {
   const auto words = [](int trouble, const char* patience_s) {
     const std::string parameters = "trouble: " + std::to_string(trouble) + ", trouble_time: 0.01";
-    CoupledPlant plant(scenarioWith(spring(parameters, bothWays(), patience_s)), kProgram);
+    CoupledPlant plant = coupledPlant(scenarioWith(spring(parameters, bothWays(), patience_s)));
     plant.enterInitializationMode(kSimStart);
     return messageOf([&] { steps(plant, 1, 100); });
   };
@@ -217,9 +218,8 @@ std::string values(const std::string& connections) {
 TEST(CoupledPlant, AnElementOfAMatrixIsCountedRowByRow) {
   for (const auto& [element, force] : std::vector<std::pair<std::string, double>>{
            {"A[1,2]", 10}, {"A[2,1]", 30}, {"A[3,3]", 80}, {"A[4]", 30}}) {
-    CoupledPlant plant(
-        scenarioWith(values("{from: 'values." + element + "', to: 'plant.force.base_W[1]'}")),
-        kProgram);
+    CoupledPlant plant = coupledPlant(
+        scenarioWith(values("{from: 'values." + element + "', to: 'plant.force.base_W[1]'}")));
     plant.enterInitializationMode(kSimStart);
     steps(plant, 1, 1);
     EXPECT_EQ(plant.truth()->external_force_W[0], force) << element;

@@ -142,7 +142,7 @@ TEST_F(Fmi2Test, CallsOutOfOrderAreErrorsInWords) {
   EXPECT_THAT(words(fmu.fmi2ExitInitializationMode(c)),
               HasSubstr("leaving initialization is not allowed in state 'instantiated'"));
   // An error is left by reset.
-  EXPECT_THAT(words(fmu.fmi2EnterInitializationMode(c)), HasSubstr("in state 'error'"));
+  EXPECT_THAT(words(fmu.fmi2EnterInitializationMode(c)), HasSubstr("in state 'failed'"));
   ASSERT_EQ(fmu.fmi2Reset(c), fmi2OK);
   ASSERT_EQ(fmu.fmi2SetupExperiment(c, 0, 0, 0, 0, 0), fmi2OK);
   ASSERT_EQ(fmu.fmi2EnterInitializationMode(c), fmi2OK);

@@ -98,7 +98,7 @@ TEST_F(Fmi3Test, DoStepTellsWhereItStands) {
               HasSubstr("step size is nan"));
   EXPECT_EQ(reached, 0.0025);
   EXPECT_THAT(words(fmu.fmi3DoStep(i, 0.0025, 0.0025, true, nullptr, nullptr, nullptr, nullptr)),
-              HasSubstr("not allowed in state 'error'"));
+              HasSubstr("not allowed in state 'failed'"));
 }
 
 TEST_F(Fmi3Test, StopTimeHolds) {

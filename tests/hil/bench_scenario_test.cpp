@@ -14,7 +14,7 @@
 #include "cosim/remote_participant.hpp"
 #include "cosim/serve.hpp"
 #include "cosim/step_master.hpp"
-#include "experiment/plant_link.hpp"
+#include "experiment/plant_factory.hpp"
 #include "experiment/robot_controller.hpp"
 #include "hil/bus_budget.hpp"
 #include "hil/data_sheet_check.hpp"
@@ -43,7 +43,7 @@ struct BenchRun {
 
 BenchRun control(const Scenario& scenario, Participant& participant) {
   EventCalendar calendar(scenario.rates.base_step);
-  RobotController controller(scenario, calendar);
+  RobotController controller(readRunConfig(scenario), calendar);
   MasterOptions options;
   options.end = kSimStart + scenario.duration;
   StepMaster master(participant, controller, calendar, nullptr, options);
@@ -61,7 +61,7 @@ class LiveDrives {
  public:
   LiveDrives(const Scenario& scenario, const ConfigNode& bench_file)
       : config_(readEmulatorConfig(bench_file)),
-        bench_(config_, makePlant(scenario)),
+        bench_(config_, makePlant(readPlantSetup(scenario))),
         buses_(openEmulatedBuses(config_, {})),
         thread_([this] { serveDrives(bench_, config_, buses_, &stop_); }) {}
   ~LiveDrives() { join(); }
@@ -186,7 +186,7 @@ TEST(BenchScenario, CommandsEqualThoseAgainstThePlantWithMatchedQuantisation) {
         benchFile("bench.yaml", {synchronous ? "synchronous_outputs=true" : "stepped=true"}),
         false);
     EXPECT_EQ(bench.saturated, 0);
-    Lifecycle direct(std::make_unique<QuantizedPlant>(makePlant(scenario), 40, synchronous));
+    Lifecycle direct(std::make_unique<QuantizedPlant>(makePlant(readPlantSetup(scenario)), 40, synchronous));
     expectSameCommands(control(scenario, direct), bench);
   }
 }

@@ -15,7 +15,7 @@
 #include "core/yaml_file.hpp"
 #include "cosim/lifecycle.hpp"
 #include "cosim/step_master.hpp"
-#include "experiment/plant_link.hpp"
+#include "experiment/plant_factory.hpp"
 #include "experiment/robot_controller.hpp"
 #include "hil/emulator/emulated_bus.hpp"
 #include "hil/hil_participant.hpp"
@@ -65,13 +65,13 @@ void run(const Calm& calm, int seed, double seconds, const std::string& multibod
   const Scenario scenario =
       loadScenario(kConfigs + "scenarios/" + calm.scenario + ".yaml", changes);
   const ConfigNode tree = loadYamlFile(kConfigs + "hil/bench.yaml");
-  EmulatedBench drives(readEmulatorConfig(tree), makePlant(scenario));
+  EmulatedBench drives(readEmulatorConfig(tree), makePlant(readPlantSetup(scenario)));
   EmulatedBus bus0(drives, 0), bus1(drives, 1);
   SteppedRunner runner(readBenchConfig(tree), {&bus0, &bus1});
   drives.powerOn();
   Lifecycle hil(std::make_unique<HilParticipant>(runner));
   EventCalendar calendar(scenario.rates.base_step);
-  RobotController controller(scenario, calendar);
+  RobotController controller(readRunConfig(scenario), calendar);
   MasterOptions options;
   options.end = kSimStart + scenario.duration;
   StepMaster master(hil, controller, calendar, nullptr, options);

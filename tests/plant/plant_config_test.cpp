@@ -81,7 +81,7 @@ TEST(Environment, ListsAScenariosPushes) {
       "full",
       {"environment={pushes: [{body: base, point_m: [0, 0, 0.35], force_N: [0, 20, 0], start_s: 2, "
        "duration_s: 0.5}, {body: arm_2, force_N: [1, 2, 3], start_s: 2.2, duration_s: 1}]}"});
-  const std::vector<Push> pushes = scheduledPushes(scenario);
+  const std::vector<Push> pushes = readPlantConfig(scenario).pushes;
   ASSERT_EQ(pushes.size(), 2u);
   EXPECT_EQ(pushes[0].p_BP_B, Vector3(0, 0, 0.35));
   EXPECT_EQ(pushes[1].body, kLink2Body);
@@ -97,12 +97,13 @@ TEST(Environment, ListsAScenariosPushes) {
   EXPECT_EQ(environment.totalForce(at(2)), Vector3(0, 20, 0));
   EXPECT_EQ(environment.totalForce(at(2.3)), Vector3(1, 22, 3));
   EXPECT_EQ(environment.totalForce(at(2.5)), Vector3(1, 2, 3));
-  EXPECT_TRUE(scheduledPushes(plantScenario("full")).empty());
+  EXPECT_TRUE(readPlantConfig(plantScenario("full")).pushes.empty());
 }
 
 TEST(PlantParticipant, IsThePlantOfItsScenario) {
   const ConfigNode scenario = plantScenario("full", {"initial={pitch_deg: 3}"});
-  const auto participant = makePlantParticipant(scenario);
+  const std::unique_ptr<Participant> participant =
+      std::make_unique<PlantParticipant>(readPlantConfig(scenario));
   Plant plant(readPlantConfig(scenario));
   participant->enterInitializationMode(kSimStart);
   participant->exitInitializationMode();

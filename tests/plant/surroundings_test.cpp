@@ -294,7 +294,9 @@ TEST(Surroundings, SayWhatIsWrongWithTheirConfiguration) {
   const auto complaint = [](const std::string& text) -> std::string {
     const ConfigNode tree = parseYaml("environment: {door: " + text + "}", "test.yaml");
     try {
-      surroundingsOf(tree);
+      ConfigReader in(*tree.find("environment"), "environment");
+      SurroundingsParameters read;
+      readDescribed(in, read);
     } catch (const InputError& e) {
       return e.what();
     }

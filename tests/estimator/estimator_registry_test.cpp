@@ -1,4 +1,4 @@
-#include "estimator/estimator_factory.hpp"
+#include "estimator/estimator_registry.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,23 +16,23 @@ std::string messageFor(const std::string& yaml) {
   const ConfigNode tree = parseYaml(yaml, "est.yaml");
   ConfigReader in(tree);
   try {
-    makeEstimator(in, estimatorTestRobot());
+    readEstimator(in)->make(estimatorTestRobot());
   } catch (const InputError& error) {
     return error.what();
   }
   return "no error";
 }
 
-TEST(EstimatorFactory, MakesWhatTheShippedFilesName) {
+TEST(EstimatorRegistry, MakesWhatTheShippedFilesName) {
   for (const char* name : {"complementary", "two_state"}) {
     const ConfigNode tree =
         loadYamlFile(std::string(BALLBOT_SOURCE_DIR) + "/configs/estimators/" + name + ".yaml");
     ConfigReader in(tree);
-    EXPECT_NE(makeEstimator(in, estimatorTestRobot()), nullptr) << name;
+    EXPECT_NE(readEstimator(in)->make(estimatorTestRobot()), nullptr) << name;
   }
 }
 
-TEST(EstimatorFactory, TheShippedTwoStateFileHoldsTheDefaults) {
+TEST(EstimatorRegistry, TheShippedTwoStateFileHoldsTheDefaults) {
   ConfigNode tree =
       loadYamlFile(std::string(BALLBOT_SOURCE_DIR) + "/configs/estimators/two_state.yaml");
   tree.erase("kind");
@@ -52,7 +52,7 @@ TEST(EstimatorFactory, TheShippedTwoStateFileHoldsTheDefaults) {
   EXPECT_FALSE(read.use_external_pose);
 }
 
-TEST(EstimatorFactory, NamesUnknownKindsAndKeys) {
+TEST(EstimatorRegistry, NamesUnknownKindsAndKeys) {
   EXPECT_THAT(messageFor("kind: kalman\n"), testing::HasSubstr("complementary"));
   EXPECT_THAT(messageFor("kind: complementary\ntilt_bandwith_rad_per_s: 1\n"),
               testing::AllOf(testing::HasSubstr("est.yaml:2"),

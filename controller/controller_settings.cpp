@@ -1,0 +1,87 @@
+#include "controller/controller_settings.hpp"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "controller/law_registry.hpp"
+#include "core/error.hpp"
+
+namespace ballbot {
+namespace {
+
+const LawKind& describeKind(ConfigVisitor& v) {
+  return lawKinds().choose(
+      v,
+      must("kind",
+           "which law balances the robot: the LQR, the whole-body MPC, or an MPC of the "
+           "base with the arm controlled apart"),
+      "mpc");
+}
+
+void describeKnownPayload(ConfigVisitor& v, double& payload) {
+  v.number(may("known_payload_kg",
+               "mass in the robot's hand that estimator and law count on; by "
+               "default the one of the robot's own description"),
+           payload, {0, 5});
+}
+
+/// Every section of every law, each once.
+template <typename Use>
+void forEachSection(Use&& use) {
+  std::set<std::string> seen;
+  for (const LawKind& kind : lawKinds().all()) {
+    for (const LawSection& section : kind.sections) {
+      if (seen.insert(section.key.name).second) use(section);
+    }
+  }
+}
+
+/// What cannot be balanced is a fault of the file in which it was asked for.
+template <typename Work>
+auto sayingWhere(const std::string& kind, Work&& work) {
+  try {
+    return work();
+  } catch (const NumericalError& e) {
+    throw InputError(fmt::format(
+        "{}: no such law balances this robot: {}. Masses and lengths (in m) are in robot.urdf, the "
+        "pose is robot.nominal_arm_rad or that of the set point, weights are in lqr and mpc",
+        kind, e.what()));
+  }
+}
+
+}  // namespace
+
+ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParameters& robot) {
+  ControllerSettings out;
+  ConfigReading reading(in);
+  out.believed_robot = robot;
+  describeKnownPayload(reading, out.believed_robot.payload_mass);
+  const LawKind& kind = describeKind(reading);
+  out.kind_ = in.at("kind");
+  out.law = sayingWhere(out.kind_, [&] { return kind.read(in, out.believed_robot); });
+  ConfigReader tracker = in.child("tracker");
+  out.tracker = TrackerConfig::read(tracker, robot);
+  tracker.finish();
+  forEachSection([&](const LawSection& section) { in.raw(section.key.name); });
+  in.finish();
+  return out;
+}
+
+std::unique_ptr<ControlLaw> ControllerSettings::makeLaw() const {
+  return sayingWhere(kind_, [&] { return law->makeLaw(); });
+}
+
+void describeController(ConfigVisitor& v, const RobotParameters& robot) {
+  double known_payload = robot.payload_mass;
+  TrackerConfig tracker = TrackerConfig::defaults(robot);
+  describeKind(v);
+  describeKnownPayload(v, known_payload);
+  v.section(must("tracker", "follows the law's plan, at the highest rate"),
+            [&](ConfigVisitor& in) { tracker.describe(in); });
+  forEachSection([&](const LawSection& section) {
+    v.section(section.key, [&](ConfigVisitor& in) { section.describe(in, robot); });
+  });
+}
+
+}  // namespace ballbot
