@@ -21,18 +21,6 @@ void bound(Command& command, double step, double lead, double speed) {
   command.speed = speed;
 }
 
-template <typename Command>
-void saveCommand(const Command& command, BlobWriter& out) {
-  out.putDoubles(command.anchor.data(), command.anchor.size());
-  out.put(command.approaching);
-}
-
-template <typename Command>
-void restoreCommand(Command& command, BlobReader& in) {
-  in.getDoubles(command.anchor.data(), command.anchor.size());
-  command.approaching = in.get<bool>();
-}
-
 Eigen::Matrix<double, 1, 1> scalar(double value) { return Eigen::Matrix<double, 1, 1>(value); }
 
 }  // namespace
@@ -114,28 +102,6 @@ void CommandGovernor::update(SimTime now, const TaskSchedule& schedule, const St
       (!asked.arm_position_weight.isZero(0) && commands_.arm_position.cuts(asked.arm_position));
   started_ = true;
   last_ = now;
-}
-
-void CommandGovernor::save(BlobWriter& out) const {
-  out.put(started_);
-  out.put(cutting_);
-  out.put(toNs(last_));
-  saveCommand(commands_.ee_position, out);
-  saveCommand(commands_.ee_orientation, out);
-  saveCommand(commands_.ball_position, out);
-  saveCommand(commands_.yaw, out);
-  saveCommand(commands_.arm_position, out);
-}
-
-void CommandGovernor::restore(BlobReader& in) {
-  started_ = in.get<bool>();
-  cutting_ = in.get<bool>();
-  last_ = simTimeFromNs(in.get<std::int64_t>());
-  restoreCommand(commands_.ee_position, in);
-  restoreCommand(commands_.ee_orientation, in);
-  restoreCommand(commands_.ball_position, in);
-  restoreCommand(commands_.yaw, in);
-  restoreCommand(commands_.arm_position, in);
 }
 
 }  // namespace ballbot

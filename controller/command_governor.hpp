@@ -1,7 +1,6 @@
 #pragma once
 
 #include "controller/tasks.hpp"
-#include "core/state_blob.hpp"
 #include "core/time.hpp"
 
 namespace ballbot {
@@ -43,8 +42,17 @@ class CommandGovernor {
   /// Whether at that time a task with weight is asked for more than its plan takes.
   bool cutting() const noexcept { return cutting_; }
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.started_);
+    visit(self.cutting_);
+    visit(self.last_);
+    visit(self.commands_.ee_position);
+    visit(self.commands_.ee_orientation);
+    visit(self.commands_.ball_position);
+    visit(self.commands_.yaw);
+    visit(self.commands_.arm_position);
+  }
 
  private:
   CommandLimits limits_;

@@ -87,20 +87,4 @@ ContactSituation ContactSupervisor::situation() const noexcept {
   return s;
 }
 
-void ContactSupervisor::save(BlobWriter& out) const {
-  out.put(state_);
-  out.put(toNs(entered_));
-  out.put(toNs(doubt_));
-  out.put(toNs(last_));
-  out.put(integral_N_);
-}
-
-void ContactSupervisor::restore(BlobReader& in) {
-  state_ = in.get<ContactState>();
-  entered_ = simTimeFromNs(in.get<std::int64_t>());
-  doubt_ = simTimeFromNs(in.get<std::int64_t>());
-  last_ = simTimeFromNs(in.get<std::int64_t>());
-  integral_N_ = in.get<double>();
-}
-
 }  // namespace ballbot

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "controller/tasks.hpp"
-#include "core/state_blob.hpp"
 #include "core/time.hpp"
 
 namespace ballbot {
@@ -47,8 +46,14 @@ class ContactSupervisor {
   /// For plans from now on; the frame's turn is left to the caller.
   ContactSituation situation() const noexcept;
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.state_);
+    visit(self.entered_);
+    visit(self.doubt_);
+    visit(self.last_);
+    visit(self.integral_N_);
+  }
 
  private:
   void enter(ContactState state, SimTime now) noexcept;

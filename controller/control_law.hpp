@@ -18,6 +18,15 @@ struct PolicySample {
   JointVector joint_position = JointVector::Zero(); ///< wheels: integrated along the plan [rad]
   JointVector joint_velocity = JointVector::Zero(); ///< [rad/s]
   bool from_stand_in = false;  ///< not the law itself: what acts for lack of a plan. Not saved
+
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.x);
+    visit(self.torque);
+    visit(self.feedback);
+    visit(self.joint_position);
+    visit(self.joint_velocity);
+  }
 };
 
 /// What a plan counted on at the end-effector, for the record.

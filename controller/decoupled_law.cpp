@@ -2,6 +2,7 @@
 
 #include "controller/rigid_arm.hpp"
 #include "core/config_visitor.hpp"
+#include "core/state_visitors.hpp"
 
 namespace ballbot {
 namespace {
@@ -131,34 +132,28 @@ void DecoupledLaw::commanded(SimTime now, SimDuration period, const JointVector&
   base_.commanded(now, period, torque);
 }
 
-StateBlob DecoupledLaw::saveState() const {
-  BlobWriter out;
-  for (const ArmPlan* plan : {&planned_, &active_}) {
-    out.put(plan->valid);
-    out.put(toNs(plan->stamp));
-    for (const Vector3* v : {&plan->position, &plan->rate, &plan->gravity, &plan->integral}) {
-      out.putDoubles(v->data(), 3);
-    }
+struct DecoupledLaw::State {
+  ArmPlan planned, active;
+  StateBlob base;
+
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.planned);
+    visit(self.active);
+    visit(self.base);
   }
-  out.putBlob(base_.saveState());
-  return out.seal(kBlobKind, kBlobVersion);
+};
+
+StateBlob DecoupledLaw::saveState() const {
+  return saveStateOf(State{planned_, active_, base_.saveState()}, kBlobKind, kBlobVersion);
 }
 
 void DecoupledLaw::restoreState(const StateBlob& blob) {
-  BlobReader in(blob, kBlobKind, kBlobVersion);
-  ArmPlan planned, active;
-  for (ArmPlan* plan : {&planned, &active}) {
-    plan->valid = in.get<bool>();
-    plan->stamp = simTimeFromNs(in.get<std::int64_t>());
-    for (Vector3* v : {&plan->position, &plan->rate, &plan->gravity, &plan->integral}) {
-      in.getDoubles(v->data(), 3);
-    }
-  }
-  const StateBlob base = in.getBlob();
-  in.finish();
-  base_.restoreState(base);
-  planned_ = planned;
-  active_ = active;
+  State next{planned_, active_, {}};
+  restoreStateOf(next, blob, kBlobKind, kBlobVersion);
+  base_.restoreState(next.base);
+  planned_ = next.planned;
+  active_ = next.active;
 }
 
 }  // namespace ballbot

@@ -56,7 +56,19 @@ class DecoupledLaw final : public ControlLaw {
     Vector3 position = Vector3::Zero(), rate = Vector3::Zero();
     Vector3 gravity = Vector3::Zero();   ///< torque that holds the arm at rest there [N m]
     Vector3 integral = Vector3::Zero();  ///< torque of the integral [N m]
+
+    template <typename Self, typename Visitor>
+    static void visitState(Self& self, Visitor& visit) {
+      visit(self.valid);
+      visit(self.stamp);
+      visit(self.position);
+      visit(self.rate);
+      visit(self.gravity);
+      visit(self.integral);
+    }
   };
+  /// What is saved.
+  struct State;
   void planArm(SimTime now, const StateVector& x) noexcept;
   /// Torque at the arm's joints that holds the robot still at x [N m].
   Vector3 gravityTorque(const StateVector& x) const noexcept;

@@ -34,6 +34,12 @@ struct GovernedCommand {
   Vector anchor = Vector::Zero();
   bool approaching = false;
 
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.anchor);
+    visit(self.approaching);
+  }
+
   /// @param asked  the command of a time `ahead` seconds after the plan's start
   Vector reference(const Vector& asked, double ahead) const {
     if (step == kUnbounded) return asked;

@@ -17,6 +17,12 @@ struct GovernedOrientation {
   Matrix3 anchor = Matrix3::Identity();
   bool approaching = false;
 
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.anchor);
+    visit(self.approaching);
+  }
+
   /// @param R_asked  the command of a time `ahead` seconds after the plan's start
   Matrix3 reference(const Matrix3& R_asked, double ahead) const {
     if (step == kUnbounded) return R_asked;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "controller/policy_sample_blob.hpp"
 #include "controller/reference_limits.hpp"
 #include "core/config_visitor.hpp"
+#include "core/state_visitors.hpp"
 
 namespace ballbot {
 namespace {
@@ -101,31 +101,10 @@ void LqrLaw::sampleOf(const Plan& plan, SimTime now, PolicySample& out) noexcept
 
 void LqrLaw::sample(SimTime now, PolicySample& out) const noexcept { sampleOf(active_, now, out); }
 
-StateBlob LqrLaw::saveState() const {
-  BlobWriter out;
-  out.putDoubles(config_.set_point.ball_position.data(), 2);
-  out.put(config_.set_point.yaw);
-  for (const Plan* plan : {&planned_, &active_}) {
-    out.put(toNs(plan->stamp));
-    putPolicySample(out, plan->at_stamp);
-  }
-  return out.seal(kBlobKind, kBlobVersion);
-}
+StateBlob LqrLaw::saveState() const { return saveStateOf(*this, kBlobKind, kBlobVersion); }
 
 void LqrLaw::restoreState(const StateBlob& blob) {
-  BlobReader in(blob, kBlobKind, kBlobVersion);
-  Plan planned, active;
-  Eigen::Vector2d ball_position;
-  in.getDoubles(ball_position.data(), 2);
-  const double yaw = in.get<double>();
-  for (Plan* plan : {&planned, &active}) {
-    plan->stamp = simTimeFromNs(in.get<std::int64_t>());
-    getPolicySample(in, plan->at_stamp);
-  }
-  in.finish();
-  setGroundSetPoint(ball_position, yaw);
-  planned_ = planned;
-  active_ = active;
+  restoreStateOf(*this, blob, kBlobKind, kBlobVersion);
 }
 
 }  // namespace ballbot

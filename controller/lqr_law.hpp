@@ -39,6 +39,14 @@ class LqrLaw final : public ControlLaw {
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;
 
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.config_.set_point.ball_position);
+    visit(self.config_.set_point.yaw);
+    visit(self.planned_);
+    visit(self.active_);
+  }
+
   const LqrSolution& solution() const { return solution_; }
 
   /// Moves the set-point in the plane, from the next plan on.
@@ -53,6 +61,12 @@ class LqrLaw final : public ControlLaw {
   struct Plan {
     SimTime stamp{};
     PolicySample at_stamp;
+
+    template <typename Self, typename Visitor>
+    static void visitState(Self& self, Visitor& visit) {
+      visit(self.stamp);
+      visit(self.at_stamp);
+    }
   };
   static void sampleOf(const Plan& plan, SimTime now, PolicySample& out) noexcept;
   Plan planFor(SimTime now, const StateVector& x, const JointVector& joint_angle) const noexcept;

@@ -27,7 +27,6 @@ class MpcExecution {
   void commanded(SimDuration period, const JointVector& torque) noexcept;
   const Vector3& filterState() const noexcept { return xf_; }  ///< [N m]
 
-  void saveFilter(BlobWriter& out) const { out.putDoubles(xf_.data(), xf_.size()); }
   StateBlob saveStandIn() const { return lqr_.saveState(); }
   void restore(const Vector3& filter_state, const StateBlob& stand_in);
 

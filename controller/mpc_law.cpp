@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/state_visitors.hpp"
+
 namespace ballbot {
 namespace {
 
@@ -44,41 +46,51 @@ void MpcLaw::commanded(SimTime, SimDuration period, const JointVector& torque) n
   execution_.commanded(period, torque);
 }
 
-StateBlob MpcLaw::saveState() const {
-  BlobWriter out;
-  planned_.save(out);
-  active_.save(out);
-  execution_.saveFilter(out);
-  out.put(planner_.shift());
-  out.put(failed_plans_);
-  planner_.contact().save(out);
-  planner_.governor().save(out);
-  out.putBlob(execution_.saveStandIn());
-  return out.seal(kBlobKind, kBlobVersion);
+struct MpcLaw::State {
+  MpcPolicy planned, active;
+  Vector3 filter_state;
+  double shift;
+  std::int64_t failed_plans;
+  ContactSupervisor contact;
+  CommandGovernor governor;
+  StateBlob stand_in;
+
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.planned);
+    visit(self.active);
+    visit(self.filter_state);
+    visit(self.shift);
+    visit(self.failed_plans);
+    visit(self.contact);
+    visit(self.governor);
+    visit(self.stand_in);
+  }
+};
+
+MpcLaw::State MpcLaw::state() const {
+  return {planned_,
+          active_,
+          execution_.filterState(),
+          planner_.shift(),
+          failed_plans_,
+          planner_.contact(),
+          planner_.governor(),
+          execution_.saveStandIn()};
 }
 
+StateBlob MpcLaw::saveState() const { return saveStateOf(state(), kBlobKind, kBlobVersion); }
+
 void MpcLaw::restoreState(const StateBlob& blob) {
-  BlobReader in(blob, kBlobKind, kBlobVersion);
-  MpcPolicy planned = planned_, active = active_;
-  planned.restore(in);
-  active.restore(in);
-  Vector3 xf;
-  in.getDoubles(xf.data(), xf.size());
-  const double shift = in.get<double>();
-  const auto failed_plans = in.get<std::int64_t>();
-  ContactSupervisor supervisor = planner_.contact();
-  supervisor.restore(in);
-  CommandGovernor governor = planner_.governor();
-  governor.restore(in);
-  const StateBlob stand_in = in.getBlob();
-  in.finish();
-  execution_.restore(xf, stand_in);
-  planned_ = std::move(planned);
-  active_ = std::move(active);
-  planner_.setShift(shift);
-  failed_plans_ = failed_plans;
-  planner_.setContact(supervisor);
-  planner_.setGovernor(governor);
+  State next = state();
+  restoreStateOf(next, blob, kBlobKind, kBlobVersion);
+  execution_.restore(next.filter_state, next.stand_in);
+  planned_ = std::move(next.planned);
+  active_ = std::move(next.active);
+  planner_.setShift(next.shift);
+  failed_plans_ = next.failed_plans;
+  planner_.setContact(next.contact);
+  planner_.setGovernor(next.governor);
 }
 
 }  // namespace ballbot

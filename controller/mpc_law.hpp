@@ -31,6 +31,10 @@ class MpcLaw final : public ControlLaw {
   std::int64_t failedPlans() const { return failed_plans_; }
 
  private:
+  /// What is saved; engine and workspaces are not.
+  struct State;
+  State state() const;
+
   MpcExecution execution_;
   MpcPlanner planner_;
   MpcPolicy planned_, active_, scratch_;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
-
 namespace ballbot {
 namespace {
 
@@ -71,44 +69,6 @@ void MpcPolicy::integrateJoints(const ReducedDynamics& dynamics,
                                                       (last.joint_velocity + knot.joint_velocity);
     }
     knot.joint_position.tail<kArmJointCount>() = knot.x.segment<kArmJointCount>(kArm1);
-  }
-}
-
-void MpcPolicy::save(BlobWriter& out) const {
-  out.put(valid_);
-  out.put(toNs(stamp_));
-  out.put(static_cast<std::int64_t>(knots_.size()));
-  out.put(static_cast<std::int64_t>(controls_.size()));
-  for (const Knot& k : knots_) {
-    out.put(k.time);
-    out.putDoubles(k.x.data(), k.x.size());
-    out.putDoubles(k.joint_position.data(), k.joint_position.size());
-    out.putDoubles(k.joint_velocity.data(), k.joint_velocity.size());
-  }
-  for (const Control& c : controls_) {
-    out.put(c.time);
-    out.putDoubles(c.u.data(), c.u.size());
-    out.putDoubles(c.K.data(), c.K.size());
-  }
-}
-
-void MpcPolicy::restore(BlobReader& in) {
-  valid_ = in.get<bool>();
-  stamp_ = simTimeFromNs(in.get<std::int64_t>());
-  if (in.get<std::int64_t>() != static_cast<std::int64_t>(knots_.size()) ||
-      in.get<std::int64_t>() != static_cast<std::int64_t>(controls_.size())) {
-    throw InputError("saved MPC plan has another horizon than this configuration");
-  }
-  for (Knot& k : knots_) {
-    k.time = in.get<double>();
-    in.getDoubles(k.x.data(), k.x.size());
-    in.getDoubles(k.joint_position.data(), k.joint_position.size());
-    in.getDoubles(k.joint_velocity.data(), k.joint_velocity.size());
-  }
-  for (Control& c : controls_) {
-    c.time = in.get<double>();
-    in.getDoubles(c.u.data(), c.u.size());
-    in.getDoubles(c.K.data(), c.K.size());
   }
 }
 

@@ -22,11 +22,26 @@ class MpcPolicy {
     MpcState x;
     JointVector joint_position;  ///< wheels: integrated along the plan from the measured angle [rad]
     JointVector joint_velocity;  ///< [rad/s]
+
+    template <typename Self, typename Visitor>
+    static void visitState(Self& self, Visitor& visit) {
+      visit(self.time);
+      visit(self.x);
+      visit(self.joint_position);
+      visit(self.joint_velocity);
+    }
   };
   struct Control {
     double time;  ///< since stamp [s]
     MpcInput u;
     MpcGain K;
+
+    template <typename Self, typename Visitor>
+    static void visitState(Self& self, Visitor& visit) {
+      visit(self.time);
+      visit(self.u);
+      visit(self.K);
+    }
   };
 
   MpcPolicy() = default;
@@ -54,9 +69,15 @@ class MpcPolicy {
   /// Joint set-points from the states, wheels starting at `joint_angle` (model.hpp's S(q) nu).
   void integrateJoints(const ReducedDynamics& dynamics, const JointVector& joint_angle) noexcept;
 
-  void save(BlobWriter& out) const;
-  /// @throw InputError if the blob's plan has another number of knots.
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.valid_);
+    visit(self.stamp_);
+    visit.sameCount(self.knots_.size(), "knots of a plan");
+    visit.sameCount(self.controls_.size(), "inputs of a plan");
+    visit(self.knots_);
+    visit(self.controls_);
+  }
 
  private:
   bool valid_ = false;

@@ -49,6 +49,8 @@ class BlobReader {
   void getDoubles(double* values, std::size_t count);
   std::vector<double> getVector();
   StateBlob getBlob();
+  /// What the blob is of, for words about it.
+  const std::string& kind() const { return kind_; }
   /// @throw InputError if bytes are left over.
   void finish() const;
 

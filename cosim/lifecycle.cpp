@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/state_visitors.hpp"
 #include "model/signal_check.hpp"
 
 namespace ballbot {
@@ -157,26 +158,32 @@ std::uint64_t Lifecycle::stateDigest() const {
   return participant_.stateDigest();
 }
 
+struct Lifecycle::Saved {
+  LifecycleState state{};
+  SimTime time{};
+  StateBlob participant;
+
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.state);
+    visit(self.time);
+    visit(self.participant);
+  }
+};
+
 StateBlob Lifecycle::saveState() const {
   demand(Call::kSaveState);
-  BlobWriter out;
-  out.put(state_);
-  out.put(toNs(time_));
-  out.putBlob(participant_.saveState());
-  return out.seal(kBlobKind, kBlobVersion);
+  return saveStateOf(Saved{state_, time_, participant_.saveState()}, kBlobKind, kBlobVersion);
 }
 
 void Lifecycle::restoreState(const StateBlob& blob) {
   demand(Call::kRestoreState);
-  BlobReader in(blob, kBlobKind, kBlobVersion);
-  const auto state = in.get<LifecycleState>();
-  const SimTime time = simTimeFromNs(in.get<std::int64_t>());
-  const StateBlob inner = in.getBlob();
-  in.finish();
+  Saved saved;
+  restoreStateOf(saved, blob, kBlobKind, kBlobVersion);
   // A refused blob leaves the participant as it was, so the lifecycle state stays, too.
-  participant_.restoreState(inner);
-  state_ = state;
-  time_ = time;
+  participant_.restoreState(saved.participant);
+  state_ = saved.state;
+  time_ = saved.time;
 }
 
 }  // namespace ballbot

@@ -59,6 +59,7 @@ class Lifecycle final : public Participant {
 
  private:
   enum class Call : std::uint8_t;
+  struct Saved;
   void demand(Call call) const;
   void requirePossible(const std::string& when, SimTime time) const;
   template <typename Work>

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/state_visitors.hpp"
 #include "model/signal_check.hpp"
 
 namespace ballbot {
@@ -15,31 +16,11 @@ constexpr std::uint32_t kBlobVersion = 1;
 
 }  // namespace
 
-StateBlob Checkpoint::toBlob() const {
-  BlobWriter out;
-  out.put(toNs(time));
-  out.put(tick);
-  for (const JointVector* values : {&command.torque, &command.position, &command.velocity,
-                                    &command.stiffness, &command.damping}) {
-    out.putDoubles(values->data(), kJointCount);
-  }
-  out.putBlob(participant);
-  out.putBlob(controller);
-  return out.seal(kBlobKind, kBlobVersion);
-}
+StateBlob Checkpoint::toBlob() const { return saveStateOf(*this, kBlobKind, kBlobVersion); }
 
 Checkpoint Checkpoint::fromBlob(const StateBlob& blob) {
-  BlobReader in(blob, kBlobKind, kBlobVersion);
   Checkpoint out;
-  out.time = simTimeFromNs(in.get<std::int64_t>());
-  out.tick = in.get<std::int64_t>();
-  for (JointVector* values : {&out.command.torque, &out.command.position, &out.command.velocity,
-                              &out.command.stiffness, &out.command.damping}) {
-    in.getDoubles(values->data(), kJointCount);
-  }
-  out.participant = in.getBlob();
-  out.controller = in.getBlob();
-  in.finish();
+  restoreStateOf(out, blob, kBlobKind, kBlobVersion);
   return out;
 }
 

@@ -30,8 +30,17 @@ struct Checkpoint {
   ActuatorCommand command;  ///< in force
   StateBlob participant, controller;
 
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.time);
+    visit(self.tick);
+    visit(self.command);
+    visit(self.participant);
+    visit(self.controller);
+  }
+
   StateBlob toBlob() const;
-  /// @throw InputError as BlobReader.
+  /// @throw InputError as restoreStateOf().
   static Checkpoint fromBlob(const StateBlob& blob);
 };
 

@@ -26,18 +26,4 @@ void ArmSensing::writeTo(SimTime now, StateVector& x) const noexcept {
   x.segment<kArmJointCount>(kPositionDim + kArmRate1) = rate_;
 }
 
-void ArmSensing::save(BlobWriter& out) const {
-  out.put(started_);
-  out.put(toNs(time_));
-  out.putDoubles(angle_.data(), kArmJointCount);
-  out.putDoubles(rate_.data(), kArmJointCount);
-}
-
-void ArmSensing::restore(BlobReader& in) {
-  started_ = in.get<bool>();
-  time_ = simTimeFromNs(in.get<std::int64_t>());
-  in.getDoubles(angle_.data(), kArmJointCount);
-  in.getDoubles(rate_.data(), kArmJointCount);
-}
-
 }  // namespace ballbot

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/state_blob.hpp"
 #include "model/signals.hpp"
 
 namespace ballbot {
@@ -17,8 +16,13 @@ class ArmSensing {
   /// Arm angles [rad] and rates [rad/s] into `x`, the angles brought forward to `now`.
   void writeTo(SimTime now, StateVector& x) const noexcept;
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.started_);
+    visit(self.time_);
+    visit(self.angle_);
+    visit(self.rate_);
+  }
 
  private:
   double time_constant_s_;

@@ -118,24 +118,4 @@ void BalanceAiding::correct(const Eigen::Vector2d& tilt_W, double variance,
   if (!H.isZero(0)) filter.addRows(H, y);
 }
 
-void BalanceAiding::save(BlobWriter& out) const {
-  out.put(begun_);
-  out.put(pushed_);
-  out.put(elapsed_);
-  out.putDoubles(momentum_.data(), 2);
-  out.putDoubles(explained_.data(), 2);
-  out.putDoubles(moment_.data(), 2);
-  out.put(height_moment_);
-}
-
-void BalanceAiding::restore(BlobReader& in) {
-  begun_ = in.get<bool>();
-  pushed_ = in.get<bool>();
-  elapsed_ = in.get<double>();
-  in.getDoubles(momentum_.data(), 2);
-  in.getDoubles(explained_.data(), 2);
-  in.getDoubles(moment_.data(), 2);
-  height_moment_ = in.get<double>();
-}
-
 }  // namespace ballbot

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/state_blob.hpp"
 #include "estimator/information_filter.hpp"
 #include "estimator/joint_history.hpp"
 #include "model/contact_momentum.hpp"
@@ -41,8 +40,16 @@ class BalanceAiding {
   /// The last interval was not measured: the window begins anew.
   void interrupt() noexcept { begun_ = false; }
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.begun_);
+    visit(self.pushed_);
+    visit(self.elapsed_);
+    visit(self.momentum_);
+    visit(self.explained_);
+    visit(self.moment_);
+    visit(self.height_moment_);
+  }
 
  private:
   /// By how much gravity's moment grows with a tilt about the ball's centre [N m/rad].

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/config_visitor.hpp"
+#include "core/state_visitors.hpp"
 #include "estimator/attitude.hpp"
 #include "estimator/delay_compensation.hpp"
 #include "model/frames.hpp"
@@ -132,35 +133,11 @@ StateEstimate ComplementaryObserver::estimate(SimTime now) const noexcept {
 }
 
 StateBlob ComplementaryObserver::saveState() const {
-  BlobWriter out;
-  order_.save(out);
-  arm_.save(out);
-  joints_.save(out);
-  alignment_.save(out);
-  out.put(imu_count_);
-  out.put(released_);
-  out.put(toNs(time_));
-  x_.save(out);
-  out.put(yaw_);
-  out.putDoubles(joint_angle_.data(), kJointCount);
-  return out.seal(kBlobKind, kBlobVersion);
+  return saveStateOf(*this, kBlobKind, kBlobVersion);
 }
 
 void ComplementaryObserver::restoreState(const StateBlob& blob) {
-  BlobReader in(blob, kBlobKind, kBlobVersion);
-  ComplementaryObserver next = *this;  // so that a blob that does not fit leaves no trace
-  next.order_.restore(in);
-  next.arm_.restore(in);
-  next.joints_.restore(in);
-  next.alignment_.restore(in);
-  next.imu_count_ = in.get<std::int64_t>();
-  next.released_ = in.get<bool>();
-  next.time_ = simTimeFromNs(in.get<std::int64_t>());
-  next.x_.restore(in);
-  next.yaw_ = in.get<double>();
-  in.getDoubles(next.joint_angle_.data(), kJointCount);
-  in.finish();
-  *this = next;
+  restoreStateOf(*this, blob, kBlobKind, kBlobVersion);
 }
 
 }  // namespace ballbot

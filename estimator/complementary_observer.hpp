@@ -49,6 +49,20 @@ class ComplementaryObserver final : public Estimator {
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;
 
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.order_);
+    visit(self.arm_);
+    visit(self.joints_);
+    visit(self.alignment_);
+    visit(self.imu_count_);
+    visit(self.released_);
+    visit(self.time_);
+    visit(self.x_);
+    visit(self.yaw_);
+    visit(self.joint_angle_);
+  }
+
  private:
   void takeImu(const SensorFrame& frame) noexcept;
   void align(const SensorFrame& frame) noexcept;

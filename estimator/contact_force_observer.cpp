@@ -52,22 +52,4 @@ void ContactForceObserver::update(SimTime now, const StateVector& x,
   force_W_ = normal.ldlt().solve(J * residual_.tail<kArmJointCount>());
 }
 
-void ContactForceObserver::save(BlobWriter& out) const {
-  out.put(started_);
-  out.put(toNs(time_));
-  out.putDoubles(explained_.data(), kVelocityDim);
-  out.putDoubles(rate_.data(), kVelocityDim);
-  out.putDoubles(residual_.data(), kVelocityDim);
-  out.putDoubles(force_W_.data(), 3);
-}
-
-void ContactForceObserver::restore(BlobReader& in) {
-  started_ = in.get<bool>();
-  time_ = simTimeFromNs(in.get<std::int64_t>());
-  in.getDoubles(explained_.data(), kVelocityDim);
-  in.getDoubles(rate_.data(), kVelocityDim);
-  in.getDoubles(residual_.data(), kVelocityDim);
-  in.getDoubles(force_W_.data(), 3);
-}
-
 }  // namespace ballbot

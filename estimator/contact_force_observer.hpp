@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "core/state_blob.hpp"
 #include "core/time.hpp"
 #include "model/reduced_dynamics.hpp"
 
@@ -34,8 +33,15 @@ class ContactForceObserver {
   /// On the end-effector, in W [N]; zero before the second update.
   const Vector3& force() const noexcept { return force_W_; }
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.started_);
+    visit(self.time_);
+    visit(self.explained_);
+    visit(self.rate_);
+    visit(self.residual_);
+    visit(self.force_W_);
+  }
 
  private:
   VelocityVector momentum(const PositionVector& q, const VelocityVector& nu) const;

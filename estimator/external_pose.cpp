@@ -1,6 +1,5 @@
 #include "estimator/external_pose.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -44,31 +43,13 @@ bool RestPose::add(const Vector3& pose_W, const ExternalPoseSettings& settings) 
 
 Vector3 RestPose::mean() const noexcept { return {mean_[0], mean_[1], unwrapped(mean_[2], 0.0)}; }
 
-void RestPose::save(BlobWriter& out) const {
-  out.put(samples_);
-  out.put(refused_);
-  out.putDoubles(mean_.data(), 3);
-}
-
-void RestPose::restore(BlobReader& in) {
-  samples_ = in.get<std::int64_t>();
-  refused_ = in.get<int>();
-  in.getDoubles(mean_.data(), 3);
-}
-
-void PoseHistory::add(const Entry& entry) noexcept {
-  entries_[static_cast<std::size_t>(next_)] = entry;
-  next_ = (next_ + 1) % kCapacity;
-  size_ = std::min(size_ + 1, kCapacity);
-}
-
 std::optional<PoseHistory::Entry> PoseHistory::at(SimTime time) const noexcept {
-  if (size_ == 0 || time > fromNewest(0).time) return std::nullopt;
-  if (time == fromNewest(0).time) return fromNewest(0);
-  for (int age = 1; age < size_; ++age) {
-    const Entry& before = fromNewest(age);
+  if (entries_.empty() || time > entries_.fromNewest(0).time) return std::nullopt;
+  if (time == entries_.fromNewest(0).time) return entries_.fromNewest(0);
+  for (int age = 1; age < entries_.size(); ++age) {
+    const Entry& before = entries_.fromNewest(age);
     if (before.time > time) continue;
-    const Entry& after = fromNewest(age - 1);
+    const Entry& after = entries_.fromNewest(age - 1);
     const double fraction = toSeconds(time - before.time) / toSeconds(after.time - before.time);
     return Entry{time, before.p_WK_W + fraction * (after.p_WK_W - before.p_WK_W),
                  before.yaw + fraction * (after.yaw - before.yaw)};
@@ -77,34 +58,12 @@ std::optional<PoseHistory::Entry> PoseHistory::at(SimTime time) const noexcept {
 }
 
 void PoseHistory::moveTo(const Entry& now) noexcept {
-  const Entry old = fromNewest(0);
+  const Entry old = entries_.fromNewest(0);
   const Eigen::Rotation2Dd turn(now.yaw - old.yaw);
-  for (int age = 0; age < size_; ++age) {
-    Entry& entry =
-        entries_[static_cast<std::size_t>((next_ + 2 * kCapacity - 1 - age) % kCapacity)];
+  for (int age = 0; age < entries_.size(); ++age) {
+    Entry& entry = entries_.fromNewest(age);
     entry.p_WK_W = now.p_WK_W + turn * (entry.p_WK_W - old.p_WK_W);
     entry.yaw += now.yaw - old.yaw;
-  }
-}
-
-void PoseHistory::save(BlobWriter& out) const {
-  out.put(size_);
-  for (int age = size_ - 1; age >= 0; --age) {
-    out.put(toNs(fromNewest(age).time));
-    out.putDoubles(fromNewest(age).p_WK_W.data(), 2);
-    out.put(fromNewest(age).yaw);
-  }
-}
-
-void PoseHistory::restore(BlobReader& in) {
-  const int count = in.get<int>();
-  size_ = next_ = 0;
-  for (int i = 0; i < count; ++i) {
-    Entry entry;
-    entry.time = simTimeFromNs(in.get<std::int64_t>());
-    in.getDoubles(entry.p_WK_W.data(), 2);
-    entry.yaw = in.get<double>();
-    add(entry);
   }
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "core/time.hpp"
 #include "estimator/filter_state.hpp"
+#include "estimator/last_values.hpp"
 
 namespace ballbot {
 
@@ -34,8 +34,12 @@ class RestPose {
   /// Ball centre x, y [m] and yaw, within half a turn of zero [rad]; zero before the first pose.
   Vector3 mean() const noexcept;
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.samples_);
+    visit(self.refused_);
+    visit(self.mean_);
+  }
 
  private:
   std::int64_t samples_ = 0;
@@ -50,26 +54,29 @@ class PoseHistory {
     SimTime time{};
     Eigen::Vector2d p_WK_W = Eigen::Vector2d::Zero();  ///< [m]
     double yaw = 0;                                    ///< continuous [rad]
+
+    template <typename Self, typename Visitor>
+    static void visitState(Self& self, Visitor& visit) {
+      visit(self.time);
+      visit(self.p_WK_W);
+      visit(self.yaw);
+    }
   };
 
-  void add(const Entry& entry) noexcept;
+  void add(const Entry& entry) noexcept { entries_.add(entry); }
   /// Linear in between; nothing before the oldest or after the newest entry.
   std::optional<Entry> at(SimTime time) const noexcept;
   /// The filter learned that it stands at `now` rather than where its newest entry says: all
   /// entries move along as one rigid body.
   void moveTo(const Entry& now) noexcept;
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.entries_);
+  }
 
  private:
-  static constexpr int kCapacity = 128;
-  const Entry& fromNewest(int age) const noexcept {
-    return entries_[static_cast<std::size_t>((next_ + 2 * kCapacity - 1 - age) % kCapacity)];
-  }
-  std::array<Entry, kCapacity> entries_;
-  int next_ = 0;
-  int size_ = 0;
+  LastValues<Entry, 128> entries_;
 };
 
 /// A pose of some time ago as a measurement of the present state: position and yaw then are those

@@ -23,22 +23,4 @@ TangentVector FilterState::minus(const FilterState& from) const noexcept {
   return delta;
 }
 
-void FilterState::save(BlobWriter& out) const {
-  out.putDoubles(p_WK_W.data(), 2);
-  out.putDoubles(R_WB.data(), 9);
-  out.putDoubles(v_WK_W.data(), 2);
-  out.putDoubles(w_WB_B.data(), 3);
-  out.putDoubles(accel_bias.data(), 3);
-  out.putDoubles(gyro_bias.data(), 3);
-}
-
-void FilterState::restore(BlobReader& in) {
-  in.getDoubles(p_WK_W.data(), 2);
-  in.getDoubles(R_WB.data(), 9);
-  in.getDoubles(v_WK_W.data(), 2);
-  in.getDoubles(w_WB_B.data(), 3);
-  in.getDoubles(accel_bias.data(), 3);
-  in.getDoubles(gyro_bias.data(), 3);
-}
-
 }  // namespace ballbot

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/state_blob.hpp"
 #include "model/state.hpp"
 
 namespace ballbot {
@@ -34,8 +33,15 @@ struct FilterState {
   /// The delta with from.plus(delta) == *this.
   TangentVector minus(const FilterState& from) const noexcept;
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.p_WK_W);
+    visit(self.R_WB);
+    visit(self.v_WK_W);
+    visit(self.w_WB_B);
+    visit(self.accel_bias);
+    visit(self.gyro_bias);
+  }
 };
 
 }  // namespace ballbot

@@ -20,16 +20,4 @@ FrameTime FrameOrder::judge(SimTime time) noexcept {
   return ahead ? FrameTime::kLeap : FrameTime::kNext;
 }
 
-void FrameOrder::save(BlobWriter& out) const {
-  out.put(started_);
-  out.put(toNs(newest_));
-  out.put(ahead_);
-}
-
-void FrameOrder::restore(BlobReader& in) {
-  started_ = in.get<bool>();
-  newest_ = simTimeFromNs(in.get<std::int64_t>());
-  ahead_ = in.get<int>();
-}
-
 }  // namespace ballbot

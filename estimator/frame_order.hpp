@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/state_blob.hpp"
 #include "core/time.hpp"
 
 namespace ballbot {
@@ -18,8 +17,12 @@ class FrameOrder {
  public:
   FrameTime judge(SimTime time) noexcept;
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.started_);
+    visit(self.newest_);
+    visit(self.ahead_);
+  }
 
  private:
   bool started_ = false;

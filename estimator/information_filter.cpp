@@ -147,26 +147,4 @@ TangentMatrix InformationFilter::covariance() const noexcept {
   return covariance_root_ * covariance_root_.transpose();
 }
 
-void InformationFilter::save(BlobWriter& out) const {
-  x_.save(out);
-  out.putDoubles(information_.data(), kTangentDim * kTangentDim);
-  out.putDoubles(covariance_root_.data(), kTangentDim * kTangentDim);
-  smooth_velocity_.save(out);
-  out.putDoubles(accel_W_.data(), 2);
-  gate_.save(out);
-  out.put(nis_);
-  out.put(nis_degrees_);
-}
-
-void InformationFilter::restore(BlobReader& in) {
-  x_.restore(in);
-  in.getDoubles(information_.data(), kTangentDim * kTangentDim);
-  in.getDoubles(covariance_root_.data(), kTangentDim * kTangentDim);
-  smooth_velocity_.restore(in);
-  in.getDoubles(accel_W_.data(), 2);
-  gate_.restore(in);
-  nis_ = in.get<double>();
-  nis_degrees_ = in.get<int>();
-}
-
 }  // namespace ballbot

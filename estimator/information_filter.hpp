@@ -46,8 +46,17 @@ class InformationFilter {
   double nis() const { return nis_; }
   int nisDegrees() const { return nis_degrees_; }
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.x_);
+    visit(self.information_);
+    visit(self.covariance_root_);
+    visit(self.smooth_velocity_);
+    visit(self.accel_W_);
+    visit(self.gate_);
+    visit(self.nis_);
+    visit(self.nis_degrees_);
+  }
 
  private:
   bool solveWithoutOutliers(IntervalMeasurement& m, FilterState& next,

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <array>
-
-#include "core/state_blob.hpp"
 #include "core/time.hpp"
+#include "estimator/last_values.hpp"
 #include "model/state.hpp"
 
 namespace ballbot {
@@ -16,31 +14,32 @@ class JointHistory {
   /// Times must not decrease; a second value of the same time replaces the first.
   void add(SimTime time, const JointVector& angle) noexcept;
 
-  bool empty() const { return size_ == 0; }
-  SimTime newestTime() const noexcept { return newest().time; }
-  SimTime oldestTime() const noexcept { return fromNewest(size_ - 1).time; }
+  bool empty() const { return entries_.empty(); }
+  SimTime newestTime() const noexcept { return entries_.fromNewest(0).time; }
+  SimTime oldestTime() const noexcept { return entries_.fromNewest(entries_.size() - 1).time; }
 
   /// Angles at `time`, linear in between; held before the oldest and after the newest value.
   /// Not for an empty history [rad].
   JointVector at(SimTime time) const noexcept;
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.entries_);
+  }
 
  private:
-  static constexpr int kCapacity = 64;
   struct Entry {
     SimTime time{};
     JointVector angle = JointVector::Zero();
-  };
-  const Entry& fromNewest(int age) const noexcept {
-    return entries_[static_cast<std::size_t>((next_ + 2 * kCapacity - 1 - age) % kCapacity)];
-  }
-  const Entry& newest() const noexcept { return fromNewest(0); }
 
-  std::array<Entry, kCapacity> entries_;
-  int next_ = 0;
-  int size_ = 0;
+    template <typename Self, typename Visitor>
+    static void visitState(Self& self, Visitor& visit) {
+      visit(self.time);
+      visit(self.angle);
+    }
+  };
+
+  LastValues<Entry, 64> entries_;
 };
 
 }  // namespace ballbot

@@ -42,18 +42,6 @@ bool SpikeGate::accepts(const Vector3& sample) noexcept {
   return ok;
 }
 
-void SpikeGate::save(BlobWriter& out) const {
-  out.put(started_);
-  out.putDoubles(accepted_.data(), 3);
-  out.putDoubles(last_.data(), 3);
-}
-
-void SpikeGate::restore(BlobReader& in) {
-  started_ = in.get<bool>();
-  in.getDoubles(accepted_.data(), 3);
-  in.getDoubles(last_.data(), 3);
-}
-
 std::array<bool, kWheelCount> WheelGate::usable(
     const std::array<bool, kWheelCount>& measured) const noexcept {
   std::array<bool, kWheelCount> use = measured;
@@ -110,24 +98,6 @@ bool WheelGate::doubtsState() const noexcept { return refused_s_ > settings_.sta
 void WheelGate::forget() noexcept {
   wheels_ = {};
   refused_s_ = 0;
-}
-
-void WheelGate::save(BlobWriter& out) const {
-  for (const Wheel& wheel : wheels_) {
-    out.put(wheel.mean);
-    out.put(wheel.suspended);
-    out.put(wheel.standing);
-  }
-  out.put(refused_s_);
-}
-
-void WheelGate::restore(BlobReader& in) {
-  for (Wheel& wheel : wheels_) {
-    wheel.mean = in.get<double>();
-    wheel.suspended = in.get<bool>();
-    wheel.standing = in.get<int>();
-  }
-  refused_s_ = in.get<double>();
 }
 
 }  // namespace ballbot

@@ -31,8 +31,12 @@ class SpikeGate {
   explicit SpikeGate(double jump) : jump_(jump) {}
   bool accepts(const Vector3& sample) noexcept;
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.started_);
+    visit(self.accepted_);
+    visit(self.last_);
+  }
 
  private:
   double jump_;
@@ -63,14 +67,24 @@ class WheelGate {
   bool doubtsState() const noexcept;
   void forget() noexcept;
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.wheels_);
+    visit(self.refused_s_);
+  }
 
  private:
   struct Wheel {
     double mean = 0;  ///< of the standardised residual
     bool suspended = false;
     int standing = 0;  ///< intervals without any motion so far
+
+    template <typename Self, typename Visitor>
+    static void visitState(Self& self, Visitor& visit) {
+      visit(self.mean);
+      visit(self.suspended);
+      visit(self.standing);
+    }
   };
   GateSettings settings_;
   std::array<Wheel, kWheelCount> wheels_;

@@ -86,18 +86,4 @@ bool PoseAiding::believes(const PoseRows& rows, InformationFilter& filter,
   return true;
 }
 
-void PoseAiding::save(BlobWriter& out) const {
-  rest_.save(out);
-  history_.save(out);
-  out.put(heading_known_);
-  out.put(refused_);
-}
-
-void PoseAiding::restore(BlobReader& in) {
-  rest_.restore(in);
-  history_.restore(in);
-  heading_known_ = in.get<bool>();
-  refused_ = in.get<int>();
-}
-
 }  // namespace ballbot

@@ -28,8 +28,13 @@ class PoseAiding {
   void take(const SensorFrame& frame, SimTime time, InformationFilter& filter, double& yaw,
             RejectionCounts& counts) noexcept;
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.rest_);
+    visit(self.history_);
+    visit(self.heading_known_);
+    visit(self.refused_);
+  }
 
  private:
   void bringInTheHeading(InformationFilter& filter) noexcept;

@@ -19,12 +19,4 @@ std::int64_t RejectionCounts::total() const noexcept {
   return std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0});
 }
 
-void RejectionCounts::save(BlobWriter& out) const {
-  for (const std::int64_t count : counts_) out.put(count);
-}
-
-void RejectionCounts::restore(BlobReader& in) {
-  for (std::int64_t& count : counts_) count = in.get<std::int64_t>();
-}
-
 }  // namespace ballbot

@@ -3,8 +3,6 @@
 #include <array>
 #include <cstdint>
 
-#include "core/state_blob.hpp"
-
 namespace ballbot {
 
 /// What an estimator does not believe, and why.
@@ -49,8 +47,10 @@ class RejectionCounts {
   }
   std::int64_t total() const noexcept;
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.counts_);
+  }
 
  private:
   std::array<std::int64_t, kRejectionCount> counts_{};

@@ -21,16 +21,4 @@ Matrix3 RestAlignment::attitude() const noexcept {
   return rotationFromYawPitchRoll(0.0, pitch, roll);
 }
 
-void RestAlignment::save(BlobWriter& out) const {
-  out.put(samples_);
-  out.putDoubles(mean_accel_.data(), 3);
-  out.putDoubles(mean_gyro_.data(), 3);
-}
-
-void RestAlignment::restore(BlobReader& in) {
-  samples_ = in.get<std::int64_t>();
-  in.getDoubles(mean_accel_.data(), 3);
-  in.getDoubles(mean_gyro_.data(), 3);
-}
-
 }  // namespace ballbot

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "core/state_blob.hpp"
 #include "model/state.hpp"
 
 namespace ballbot {
@@ -23,8 +22,12 @@ class RestAlignment {
   /// Attitude with yaw zero; identity before the first sample.
   Matrix3 attitude() const noexcept;
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.samples_);
+    visit(self.mean_accel_);
+    visit(self.mean_gyro_);
+  }
 
  private:
   std::int64_t samples_ = 0;

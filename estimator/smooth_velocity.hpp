@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/state_blob.hpp"
 #include "model/state.hpp"
 
 namespace ballbot {
@@ -39,13 +38,10 @@ class SmoothVelocity {
 
   const Eigen::Vector2d& value() const { return value_; }  ///< [m/s]
 
-  void save(BlobWriter& out) const {
-    out.putDoubles(first_.data(), 2);
-    out.putDoubles(value_.data(), 2);
-  }
-  void restore(BlobReader& in) {
-    in.getDoubles(first_.data(), 2);
-    in.getDoubles(value_.data(), 2);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.first_);
+    visit(self.value_);
   }
 
  private:

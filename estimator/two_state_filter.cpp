@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/state_visitors.hpp"
 #include "estimator/attitude.hpp"
 #include "estimator/delay_compensation.hpp"
 #include "model/frames.hpp"
@@ -222,58 +223,10 @@ std::optional<SelfAssessment> TwoStateFilter::selfAssessment() const noexcept {
   return out;
 }
 
-StateBlob TwoStateFilter::saveState() const {
-  BlobWriter out;
-  order_.save(out);
-  arm_.save(out);
-  joints_.save(out);
-  alignment_.save(out);
-  filter_.save(out);
-  accel_gate_.save(out);
-  gyro_gate_.save(out);
-  poses_.save(out);
-  balance_.save(out);
-  counts_.save(out);
-  out.put(toNs(time_));
-  out.put(yaw_);
-  out.put(released_);
-  out.put(running_);
-  out.put(imu_count_);
-  out.put(pose_count_);
-  out.put(first_imu_count_);
-  out.put(toNs(first_imu_time_));
-  out.put(toNs(imu_period_));
-  out.putDoubles(wheel_angle_.data(), 3);
-  out.put(wheel_angle_known_);
-  return out.seal(kBlobKind, kBlobVersion);
-}
+StateBlob TwoStateFilter::saveState() const { return saveStateOf(*this, kBlobKind, kBlobVersion); }
 
 void TwoStateFilter::restoreState(const StateBlob& blob) {
-  BlobReader in(blob, kBlobKind, kBlobVersion);
-  TwoStateFilter next = *this;  // so that a blob that does not fit leaves no trace
-  next.order_.restore(in);
-  next.arm_.restore(in);
-  next.joints_.restore(in);
-  next.alignment_.restore(in);
-  next.filter_.restore(in);
-  next.accel_gate_.restore(in);
-  next.gyro_gate_.restore(in);
-  next.poses_.restore(in);
-  next.balance_.restore(in);
-  next.counts_.restore(in);
-  next.time_ = simTimeFromNs(in.get<std::int64_t>());
-  next.yaw_ = in.get<double>();
-  next.released_ = in.get<bool>();
-  next.running_ = in.get<bool>();
-  next.imu_count_ = in.get<std::int64_t>();
-  next.pose_count_ = in.get<std::int64_t>();
-  next.first_imu_count_ = in.get<std::int64_t>();
-  next.first_imu_time_ = simTimeFromNs(in.get<std::int64_t>());
-  next.imu_period_ = SimDuration{in.get<std::int64_t>()};
-  in.getDoubles(next.wheel_angle_.data(), 3);
-  next.wheel_angle_known_ = in.get<bool>();
-  in.finish();
-  *this = next;
+  restoreStateOf(*this, blob, kBlobKind, kBlobVersion);
 }
 
 }  // namespace ballbot

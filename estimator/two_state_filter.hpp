@@ -30,6 +30,31 @@ class TwoStateFilter final : public Estimator {
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;
 
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.order_);
+    visit(self.arm_);
+    visit(self.joints_);
+    visit(self.alignment_);
+    visit(self.filter_);
+    visit(self.accel_gate_);
+    visit(self.gyro_gate_);
+    visit(self.poses_);
+    visit(self.balance_);
+    visit(self.counts_);
+    visit(self.time_);
+    visit(self.yaw_);
+    visit(self.released_);
+    visit(self.running_);
+    visit(self.imu_count_);
+    visit(self.pose_count_);
+    visit(self.first_imu_count_);
+    visit(self.first_imu_time_);
+    visit(self.imu_period_);
+    visit(self.wheel_angle_);
+    visit(self.wheel_angle_known_);
+  }
+
   /// The state at its own time, the last inertial sample, with its covariance.
   SimTime stateTime() const { return time_; }
   const FilterState& state() const { return filter_.state(); }

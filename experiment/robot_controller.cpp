@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "controller/policy_sample_blob.hpp"
+#include "core/state_visitors.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/run_metrics.hpp"
 #include "model/pd_law.hpp"
@@ -51,12 +51,12 @@ void RobotController::onSensors(SimTime now, const SensorFrame& sensors, DueTask
     }
   }
   // A plan that has become old enough acts before a new one is begun.
-  if (plan_pending_ && now >= pending_since_ + plan_latency_) {
+  if (state_.plan_pending && now >= state_.pending_since + plan_latency_) {
     law_->activatePlan();
-    plan_pending_ = false;
-    has_policy_ = true;
+    state_.plan_pending = false;
+    state_.has_policy = true;
   }
-  if ((due.has(planner_task_) || plan_now_) && !plan_pending_) plan(now, sensors, out);
+  if ((due.has(planner_task_) || state_.plan_now) && !state_.plan_pending) plan(now, sensors, out);
   if (due.has(tracker_task_)) track(now, sensors, out);
 }
 
@@ -67,11 +67,11 @@ void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutpu
     out.plan_timing = {wall_clock_ns_() - started, report.times.approximation_ns,
                        report.times.riccati_ns, report.times.line_search_ns};
   }
-  plan_now_ = false;
-  ++plans_;
-  if (!report.accepted) ++plans_refused_;
-  if (report.fallback) ++plans_on_fallback_;
-  if (report.command_cut) ++plans_cut_;
+  state_.plan_now = false;
+  ++state_.plans;
+  if (!report.accepted) ++state_.plans_refused;
+  if (report.fallback) ++state_.plans_on_fallback;
+  if (report.command_cut) ++state_.plans_cut;
   out.has_plan = true;
   out.plan.time = now;
   out.plan.acts_from = now + plan_latency_;
@@ -91,31 +91,36 @@ void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutpu
               added_to_plan_.values.begin());
   static_assert(std::tuple_size<decltype(out.plan.cost_terms)>::value == kCostTermCount);
   std::copy(report.terms.value.begin(), report.terms.value.end(), out.plan.cost_terms.begin());
-  if (plan_latency_ == SimDuration::zero() || !has_policy_) {
+  if (plan_latency_ == SimDuration::zero() || !state_.has_policy) {
     // The first plan acts at once: it was made while the stand still held the robot.
     law_->activatePlan();
-    has_policy_ = true;
+    state_.has_policy = true;
   } else {
-    plan_pending_ = true;
-    pending_since_ = now;
+    state_.plan_pending = true;
+    state_.pending_since = now;
   }
 }
 
 void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutput& out) {
-  if (!has_policy_) return;
-  law_->sample(now, policy_);
+  if (!state_.has_policy) return;
+  PolicySample& policy = state_.policy;
+  law_->sample(now, policy);
   const StateVector x = sensing_.estimate(now).x;
-  switch (tracker_->step(policy_, x, sensors.joint_angle, sensors.joint_velocity, out.command)) {
+  switch (tracker_->step(policy, x, sensors.joint_angle, sensors.joint_velocity, out.command)) {
     case TrackStatus::kOk: break;
-    case TrackStatus::kTorqueSaturated: ++ticks_saturated_; break;
-    case TrackStatus::kNotFinite: ++ticks_not_finite_; break;
+    case TrackStatus::kTorqueSaturated:
+      ++state_.ticks_saturated;
+      break;
+    case TrackStatus::kNotFinite:
+      ++state_.ticks_not_finite;
+      break;
   }
   if (now >= release_) {
-    ++ticks_released_;
-    if (policy_.from_stand_in) ++ticks_on_fallback_;
+    ++state_.ticks_released;
+    if (policy.from_stand_in) ++state_.ticks_on_fallback;
     // With the PD in the drives, their part is added here.
     const JointVector whole = pdTorque(out.command, sensors.joint_angle, sensors.joint_velocity);
-    feedforward_share_.add(policy_.torque, whole - policy_.torque);
+    state_.feedforward_share.add(policy.torque, whole - policy.torque);
   }
   law_->commanded(now, tracker_period_, out.command.torque);
 }
@@ -125,70 +130,52 @@ void RobotController::setWallClock(PhaseClock now_ns) {
   law_->setClock(now_ns);
 }
 
+struct RobotController::Whole {
+  RobotSensing::State sensing;
+  StateBlob law;
+  State state;
+
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.sensing);
+    visit(self.law);
+    visit(self.state);
+  }
+};
+
 StateBlob RobotController::saveState() const {
-  BlobWriter out;
-  sensing_.save(out);
-  out.putBlob(law_->saveState());
-  putPolicySample(out, policy_);
-  out.put(plan_pending_);
-  out.put(has_policy_);
-  out.put(plan_now_);
-  out.put(toNs(pending_since_));
-  out.put(plans_);
-  out.put(plans_refused_);
-  out.put(plans_on_fallback_);
-  out.put(plans_cut_);
-  out.put(ticks_saturated_);
-  out.put(ticks_not_finite_);
-  out.put(ticks_released_);
-  out.put(ticks_on_fallback_);
-  feedforward_share_.save(out);
-  return out.seal(kBlobKind, kBlobVersion);
+  return saveStateOf(Whole{sensing_.state(), law_->saveState(), state_}, kBlobKind, kBlobVersion);
 }
 
 void RobotController::restoreState(const StateBlob& blob) { restore(blob, true); }
 
 void RobotController::takeOver(const StateBlob& blob) {
   restore(blob, false);
-  plan_pending_ = has_policy_ = false;
-  plan_now_ = true;
+  state_.plan_pending = state_.has_policy = false;
+  state_.plan_now = true;
 }
 
 void RobotController::restore(const StateBlob& blob, bool with_law) {
-  BlobReader in(blob, kBlobKind, kBlobVersion);
-  sensing_.restore(in);
-  const StateBlob law = in.getBlob();
-  if (with_law) law_->restoreState(law);
+  Whole whole{sensing_.state(), {}, state_};
+  restoreStateOf(whole, blob, kBlobKind, kBlobVersion);
+  sensing_.restore(whole.sensing);
+  if (with_law) law_->restoreState(whole.law);
   law_->setContactForce(sensing_.contactForce());
-  getPolicySample(in, policy_);
-  plan_pending_ = in.get<bool>();
-  has_policy_ = in.get<bool>();
-  plan_now_ = in.get<bool>();
-  pending_since_ = simTimeFromNs(in.get<std::int64_t>());
-  plans_ = in.get<std::int64_t>();
-  plans_refused_ = in.get<std::int64_t>();
-  plans_on_fallback_ = in.get<std::int64_t>();
-  plans_cut_ = in.get<std::int64_t>();
-  ticks_saturated_ = in.get<std::int64_t>();
-  ticks_not_finite_ = in.get<std::int64_t>();
-  ticks_released_ = in.get<std::int64_t>();
-  ticks_on_fallback_ = in.get<std::int64_t>();
-  feedforward_share_.restore(in);
-  in.finish();
+  state_ = whole.state;
 }
 
 std::map<std::string, double> RobotController::metrics() const {
   const auto number = [](std::int64_t n) { return static_cast<double>(n); };
   std::map<std::string, double> out = rejectionMetrics(sensing_.estimator().rejections());
-  out.merge(feedforward_share_.values());
-  out["plans"] = number(plans_);
-  out["plans_refused"] = number(plans_refused_);
-  out["plans_on_fallback"] = number(plans_on_fallback_);
-  out["plans_with_cut_commands"] = number(plans_cut_);
-  out["ticks_saturated"] = number(ticks_saturated_);
-  out["ticks_not_finite"] = number(ticks_not_finite_);
-  if (ticks_released_ > 0) {
-    out[kFallbackPercent] = 100 * number(ticks_on_fallback_) / number(ticks_released_);
+  out.merge(state_.feedforward_share.values());
+  out["plans"] = number(state_.plans);
+  out["plans_refused"] = number(state_.plans_refused);
+  out["plans_on_fallback"] = number(state_.plans_on_fallback);
+  out["plans_with_cut_commands"] = number(state_.plans_cut);
+  out["ticks_saturated"] = number(state_.ticks_saturated);
+  out["ticks_not_finite"] = number(state_.ticks_not_finite);
+  if (state_.ticks_released > 0) {
+    out[kFallbackPercent] = 100 * number(state_.ticks_on_fallback) / number(state_.ticks_released);
   }
   return out;
 }

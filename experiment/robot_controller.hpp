@@ -41,6 +41,38 @@ class RobotController final : public SteppedController {
   void setWallClock(PhaseClock now_ns) override;
 
  private:
+  /// What goes on from one event to the next, but for the parts that keep their own.
+  struct State {
+    PolicySample policy;
+    FeedforwardShare feedforward_share;
+    bool plan_pending = false;
+    bool has_policy = false;
+    bool plan_now = false;  ///< whether or not the planner is due
+    SimTime pending_since{};
+    std::int64_t plans = 0, plans_refused = 0, plans_on_fallback = 0, plans_cut = 0;
+    std::int64_t ticks_saturated = 0, ticks_not_finite = 0;
+    std::int64_t ticks_released = 0, ticks_on_fallback = 0;  ///< the second is part of the first
+
+    template <typename Self, typename Visitor>
+    static void visitState(Self& self, Visitor& visit) {
+      visit(self.policy);
+      visit(self.plan_pending);
+      visit(self.has_policy);
+      visit(self.plan_now);
+      visit(self.pending_since);
+      visit(self.plans);
+      visit(self.plans_refused);
+      visit(self.plans_on_fallback);
+      visit(self.plans_cut);
+      visit(self.ticks_saturated);
+      visit(self.ticks_not_finite);
+      visit(self.ticks_released);
+      visit(self.ticks_on_fallback);
+      visit(self.feedforward_share);
+    }
+  };
+  /// What is saved.
+  struct Whole;
   void restore(const StateBlob& blob, bool with_law);
   void plan(SimTime now, const SensorFrame& sensors, ControlOutput& out);
   void track(SimTime now, const SensorFrame& sensors, ControlOutput& out);
@@ -52,16 +84,8 @@ class RobotController final : public SteppedController {
   std::unique_ptr<PdTracker> tracker_;
   TaskId tracker_task_, estimator_task_, planner_task_;
 
-  PolicySample policy_;
   AddedSignals added_to_plan_;
-  FeedforwardShare feedforward_share_;
-  bool plan_pending_ = false;
-  bool has_policy_ = false;
-  bool plan_now_ = false;  ///< whether or not the planner is due
-  SimTime pending_since_{};
-  std::int64_t plans_ = 0, plans_refused_ = 0, plans_on_fallback_ = 0, plans_cut_ = 0;
-  std::int64_t ticks_saturated_ = 0, ticks_not_finite_ = 0;
-  std::int64_t ticks_released_ = 0, ticks_on_fallback_ = 0;  ///< the second is part of the first
+  State state_;
 
   PhaseClock wall_clock_ns_ = nullptr;
 };

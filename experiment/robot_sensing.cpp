@@ -33,14 +33,9 @@ void RobotSensing::write(SimTime now, EstimateFrame& out) const noexcept {
   out.aligned = e.aligned;
 }
 
-void RobotSensing::save(BlobWriter& out) const {
-  out.putBlob(estimator_->saveState());
-  contact_force_.save(out);
-}
-
-void RobotSensing::restore(BlobReader& in) {
-  estimator_->restoreState(in.getBlob());
-  contact_force_.restore(in);
+void RobotSensing::restore(const State& state) {
+  estimator_->restoreState(state.estimator);
+  contact_force_ = state.contact_force;
 }
 
 }  // namespace ballbot

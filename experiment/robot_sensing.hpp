@@ -29,8 +29,20 @@ class RobotSensing {
   /// As it goes on record; the tick is the recorder's.
   void write(SimTime now, EstimateFrame& out) const noexcept;
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  /// What goes on from one frame to the next; the estimator's part sealed by itself.
+  struct State {
+    StateBlob estimator;
+    ContactForceObserver contact_force;
+
+    template <typename Self, typename Visitor>
+    static void visitState(Self& self, Visitor& visit) {
+      visit(self.estimator);
+      visit(self.contact_force);
+    }
+  };
+  State state() const { return {estimator_->saveState(), contact_force_}; }
+  /// @throw InputError if the estimator refuses its part; nothing has changed then.
+  void restore(const State& state);
 
  private:
   SimTime release_;

@@ -6,6 +6,7 @@
 
 #include "core/digest.hpp"
 #include "core/error.hpp"
+#include "core/state_visitors.hpp"
 #include "fmi/native_plant_model.hpp"
 #include "model/signal_table.hpp"
 
@@ -14,22 +15,6 @@ namespace {
 
 constexpr const char* kBlobKind = "coupled plant";
 constexpr std::uint32_t kBlobVersion = 1;
-
-void putRows(BlobWriter& out, const std::vector<std::vector<double>>& rows) {
-  for (const auto& row : rows) out.putVector(row);
-}
-
-std::vector<std::vector<double>> getRows(BlobReader& in,
-                                         const std::vector<std::vector<double>>& like) {
-  std::vector<std::vector<double>> rows;
-  for (const auto& row : like) {
-    rows.push_back(in.getVector());
-    if (rows.back().size() != row.size()) {
-      throw InputError("this state is of plant and FMUs with other connections");
-    }
-  }
-  return rows;
-}
 
 }  // namespace
 
@@ -125,27 +110,33 @@ const AddedSignals& CoupledPlant::addedSensors() const {
   return native_ == nullptr ? Participant::addedSensors() : native_->addedSensors();
 }
 
+struct CoupledPlant::State {
+  Rows outputs, before;
+  SimTime now;
+  std::vector<StateBlob> models;
+
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.outputs);
+    visit(self.before);
+    visit(self.now);
+    visit(self.models);
+  }
+};
+
 StateBlob CoupledPlant::saveState() const {
-  BlobWriter out;
-  putRows(out, outputs_);
-  putRows(out, before_);
-  out.put(toNs(now_));
-  for (const auto& model : models_) out.putBlob(model->save());
-  return out.seal(kBlobKind, kBlobVersion);
+  State state{outputs_, before_, now_, {}};
+  for (const auto& model : models_) state.models.push_back(model->save());
+  return saveStateOf(state, kBlobKind, kBlobVersion);
 }
 
 void CoupledPlant::restoreState(const StateBlob& blob) {
-  BlobReader in(blob, kBlobKind, kBlobVersion);
-  Rows outputs = getRows(in, outputs_);
-  Rows before = getRows(in, before_);
-  const SimTime now = simTimeFromNs(in.get<std::int64_t>());
-  std::vector<StateBlob> states;
-  for (std::size_t i = 0; i < models_.size(); ++i) states.push_back(in.getBlob());
-  in.finish();
-  for (std::size_t i = 0; i < models_.size(); ++i) models_[i]->restore(states[i]);
-  now_ = now;
-  outputs_ = std::move(outputs);
-  before_ = std::move(before);
+  State next{outputs_, before_, now_, std::vector<StateBlob>(models_.size())};
+  restoreStateOf(next, blob, kBlobKind, kBlobVersion);
+  for (std::size_t i = 0; i < models_.size(); ++i) models_[i]->restore(next.models[i]);
+  now_ = next.now;
+  outputs_ = std::move(next.outputs);
+  before_ = std::move(next.before);
   observe();
 }
 

@@ -41,6 +41,8 @@ class CoupledPlant final : public Participant {
 
  private:
   using Rows = std::vector<std::vector<double>>;
+  /// What is saved.
+  struct State;
 
   void evaluate(const std::vector<std::size_t>& nodes);
   void requireTaken() const;

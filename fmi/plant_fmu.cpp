@@ -9,6 +9,7 @@
 
 #include "core/digest.hpp"
 #include "core/error.hpp"
+#include "core/state_visitors.hpp"
 #include "core/yaml_file.hpp"
 #include "fmi/plant_parameters.hpp"
 #include "fmi/step_time.hpp"
@@ -227,64 +228,62 @@ void PlantFmu::refresh() {
   stale_ = false;
 }
 
-StateBlob PlantFmu::saveState() const {
-  BlobWriter out;
-  out.putBlob(StateBlob(token_.begin(), token_.end()));
-  out.put(mode_);
-  out.put(toNs(start_));
-  out.put(toNs(now_));
-  out.put(stop_.has_value());
-  out.put(toNs(stop_.value_or(SimTime{})));
+struct PlantFmu::State {
+  std::string token;
+  LifecycleState mode;
+  SimTime start, now;
+  bool has_stop;
+  SimTime stop;
+  std::vector<double> settable, held;
+  bool has_plant;
+  StateBlob plant;
+
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit.form(self.token, [](const std::string&) {
+      return "this state is of an FMU made from another scenario, robot or FMI version";
+    });
+    visit(self.mode);
+    visit(self.start);
+    visit(self.now);
+    visit(self.has_stop);
+    visit(self.stop);
+    visit(self.settable);
+    visit(self.held);
+    visit(self.has_plant);
+    if (self.has_plant) visit(self.plant);
+  }
+};
+
+PlantFmu::State PlantFmu::stateWithoutPlant() const {
   std::vector<double> settable;
   for (const FmuVariable& v : variables_.all()) {
     if (!v.hasStart()) continue;
     settable.insert(settable.end(), &values_[v.reference], &values_[v.reference] + v.size);
   }
-  out.putVector(settable);
-  out.putVector(held_);
-  out.put(plant_ != nullptr);
-  if (plant_) out.putBlob(plant_->saveState());
-  return out.seal(kBlobKind, kBlobVersion);
+  return {token_,
+          mode_,
+          start_,
+          now_,
+          stop_.has_value(),
+          stop_.value_or(SimTime{}),
+          std::move(settable),
+          held_,
+          false,
+          {}};
 }
 
-/// A saved state, taken apart.
-struct PlantFmu::Saved {
-  LifecycleState mode{};
-  SimTime start{}, now{};
-  std::optional<SimTime> stop;
-  std::vector<double> values;
-  std::vector<double> held;
-  std::optional<StateBlob> plant;
-};
+StateBlob PlantFmu::saveState() const {
+  State s = stateWithoutPlant();
+  s.has_plant = plant_ != nullptr;
+  if (plant_) s.plant = plant_->saveState();
+  return saveStateOf(s, kBlobKind, kBlobVersion);
+}
 
-PlantFmu::Saved PlantFmu::read(const StateBlob& blob) const {
-  BlobReader in(blob, kBlobKind, kBlobVersion);
-  const StateBlob token = in.getBlob();
-  if (std::string(token.begin(), token.end()) != token_) {
-    throw InputError("this state is of an FMU made from another scenario, robot or FMI version");
-  }
-  Saved s;
-  s.mode = in.get<LifecycleState>();
-  s.start = simTimeFromNs(in.get<std::int64_t>());
-  s.now = simTimeFromNs(in.get<std::int64_t>());
-  const bool has_stop = in.get<std::uint8_t>() != 0;
-  const SimTime stop = simTimeFromNs(in.get<std::int64_t>());
-  if (has_stop) s.stop = stop;
-  const std::vector<double> settable = in.getVector();
-  s.held = in.getVector();
-  if (in.get<std::uint8_t>() != 0) s.plant = in.getBlob();
-  in.finish();
-
-  s.values = variables_.startValues();
-  std::size_t next = 0;
-  for (const FmuVariable& v : variables_.all()) {
-    if (!v.hasStart()) continue;
-    const auto size = static_cast<std::size_t>(v.size);
-    if (next + size > settable.size()) break;
-    std::copy_n(&settable[next], size, &s.values[v.reference]);
-    next += size;
-  }
-  if (s.mode > LifecycleState::kFailed || next != settable.size() || s.held.size() != kForceValues) {
+PlantFmu::State PlantFmu::read(const StateBlob& blob) const {
+  State s = stateWithoutPlant();
+  restoreStateOf(s, blob, kBlobKind, kBlobVersion);
+  if (s.mode > LifecycleState::kFailed) {
     throw InputError("this state does not have the form of this FMU's");
   }
   return s;
@@ -293,26 +292,33 @@ PlantFmu::Saved PlantFmu::read(const StateBlob& blob) const {
 void PlantFmu::checkState(const StateBlob& blob) const { read(blob); }
 
 void PlantFmu::restoreState(const StateBlob& blob) {
-  Saved s = read(blob);
+  State s = read(blob);
+  std::vector<double> values = variables_.startValues();
+  auto next = s.settable.begin();
+  for (const FmuVariable& v : variables_.all()) {
+    if (!v.hasStart()) continue;
+    std::copy_n(next, v.size, &values[v.reference]);
+    next += v.size;
+  }
   const auto first = static_cast<std::ptrdiff_t>(variables_.groups().parameters);
-  if (s.plant) {
+  if (s.has_plant) {
     // A plant with the same parameters is worth keeping: to build one costs many restores.
     const bool fits =
-        plant_ && std::equal(values_.begin() + first, values_.end(), s.values.begin() + first);
-    std::unique_ptr<Plant> fresh = fits ? nullptr : makePlant(s.values);
+        plant_ && std::equal(values_.begin() + first, values_.end(), values.begin() + first);
+    std::unique_ptr<Plant> fresh = fits ? nullptr : makePlant(values);
     Plant& target = fits ? *plant_ : *fresh;
     target.setExternalForces(frameOf(externalForceSignals(), s.held.data()));
-    target.restoreState(*s.plant);
+    target.restoreState(s.plant);
     if (fresh) plant_ = std::move(fresh);
   } else {
     plant_.reset();
   }
-  values_ = std::move(s.values);
+  values_ = std::move(values);
   held_ = std::move(s.held);
   mode_ = s.mode;
   start_ = s.start;
   now_ = s.now;
-  stop_ = s.stop;
+  stop_ = s.has_stop ? std::optional<SimTime>(s.stop) : std::nullopt;
   stale_ = digest_stale_ = true;
 }
 

@@ -57,8 +57,11 @@ class PlantFmu {
   void checkState(const StateBlob& blob) const;
 
  private:
-  struct Saved;
-  Saved read(const StateBlob& blob) const;
+  /// What is saved.
+  struct State;
+  State stateWithoutPlant() const;
+  /// @throw InputError if these bytes are not such a state of this FMU.
+  State read(const StateBlob& blob) const;
   void demand(const char* call, std::initializer_list<LifecycleState> allowed) const;
   /// The scenario with the parameters as they are now.
   ConfigNode effectiveScenario(const std::vector<double>& values) const;

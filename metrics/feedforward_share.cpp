@@ -30,14 +30,4 @@ std::vector<std::string> FeedforwardShare::names() {
           "feedforward_share_arm2_percent", "feedforward_share_arm3_percent"};
 }
 
-void FeedforwardShare::save(BlobWriter& out) const {
-  out.putDoubles(sum_.data(), kJointCount);
-  out.putDoubles(count_.data(), kJointCount);
-}
-
-void FeedforwardShare::restore(BlobReader& in) {
-  in.getDoubles(sum_.data(), kJointCount);
-  in.getDoubles(count_.data(), kJointCount);
-}
-
 }  // namespace ballbot

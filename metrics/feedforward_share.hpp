@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "core/state_blob.hpp"
 #include "model/state.hpp"
 
 namespace ballbot {
@@ -26,8 +25,11 @@ class FeedforwardShare {
   std::map<std::string, double> values() const;
   static std::vector<std::string> names();
 
-  void save(BlobWriter& out) const;
-  void restore(BlobReader& in);
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.sum_);
+    visit(self.count_);
+  }
 
  private:
   JointVector sum_ = JointVector::Zero(), count_ = JointVector::Zero();

@@ -39,6 +39,15 @@ struct ActuatorCommand {
   JointVector velocity = JointVector::Zero();   ///< [rad/s]
   JointVector stiffness = JointVector::Zero();  ///< [N m/rad]
   JointVector damping = JointVector::Zero();    ///< [N m s/rad]
+
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.torque);
+    visit(self.position);
+    visit(self.velocity);
+    visit(self.stiffness);
+    visit(self.damping);
+  }
 };
 
 }  // namespace ballbot

@@ -82,6 +82,11 @@ class AddedSensorBank {
   /// With the values of now.
   const AddedSignals& signals() const { return signals_; }
 
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    for (const auto& sensor : self.sensors_) visit(sensor->state());
+  }
+  /// The same as values, for who restores: the sensors themselves cannot be copied.
   using States = std::vector<std::vector<double>>;
   States states() const;
   void setStates(const States& states);

@@ -31,17 +31,11 @@ class DriveBank {
 
   template <typename Self, typename Visitor>
   static void visitState(Self& self, Visitor& visit) {
-    JointEncoders::visitState(self.encoders_, visit);
-    for (auto& drive : self.drives_) TorqueDrive::visitState(drive, visit);
+    visit(self.encoders_);
+    visit(self.drives_);
     visit(self.ticks_);
-    for (auto& wanted : self.inserted_delay_) visit(wanted);
-    for (auto& command : self.on_the_way_) {
-      visit(command.torque);
-      visit(command.position);
-      visit(command.velocity);
-      visit(command.stiffness);
-      visit(command.damping);
-    }
+    visit(self.inserted_delay_);
+    visit(self.on_the_way_);
   }
 
  private:

@@ -8,15 +8,16 @@
 
 #include "core/angle.hpp"
 #include "core/error.hpp"
+#include "core/state_visitors.hpp"
 #include "model/frames.hpp"
 #include "model/signal_check.hpp"
 #include "plant/drive_bank.hpp"
 #include "plant/plant_dynamics.hpp"
-#include "plant/state_visitors.hpp"
 
 namespace ballbot {
 namespace {
 
+constexpr const char* kBlobKind = "plant";
 constexpr std::uint32_t kBlobVersion = 1;
 
 const char* nameOf(ContactLevel contact) {
@@ -119,35 +120,20 @@ class Plant::Impl {
   }
 
   StateBlob save() const {
-    BlobWriter out;
-    out.putBlob(StateBlob(form_.begin(), form_.end()));
-    StateSaver saver(out);
-    visitState(state_, dynamics_.actuators(), saver);
-    FaultInjector::visitState(faults_, saver);
-    MotionCapture::visitState(motion_capture_, saver);
-    visitAdded(added_sensors_.states(), saver);
-    return out.seal("plant", kBlobVersion);
+    return sealState(kBlobKind, kBlobVersion, [&](StateSaver& visit) {
+      visitState(state_, dynamics_.actuators(), faults_, motion_capture_, added_sensors_, visit);
+    });
   }
 
   void restore(const StateBlob& blob) {
-    BlobReader in(blob, "plant", kBlobVersion);
-    const StateBlob text = in.getBlob();
-    const std::string form(text.begin(), text.end());
-    if (form != form_) {
-      throw InputError(
-          fmt::format("saved plant state is of a plant with {}; this one has {}", form, form_));
-    }
     State restored = state_;
     PlantDynamics::Actuators actuators = dynamics_.actuators();
-    StateLoader loader(in);
-    visitState(restored, actuators, loader);
     FaultInjector faults = faults_;
-    FaultInjector::visitState(faults, loader);
     MotionCapture capture = motion_capture_;
-    MotionCapture::visitState(capture, loader);
     AddedSensorBank::States added = added_sensors_.states();
-    visitAdded(added, loader);
-    in.finish();
+    openState(blob, kBlobKind, kBlobVersion, [&](StateLoader& visit) {
+      visitState(restored, actuators, faults, capture, added, visit);
+    });
     faults_ = std::move(faults);
     motion_capture_ = std::move(capture);
     state_ = std::move(restored);
@@ -159,10 +145,7 @@ class Plant::Impl {
 
   std::uint64_t digest() const {
     hasher_.clear();
-    visitState(state_, dynamics_.actuators(), hasher_);
-    FaultInjector::visitState(faults_, hasher_);
-    MotionCapture::visitState(motion_capture_, hasher_);
-    if (added_sensors_.any()) visitAdded(added_sensors_.states(), hasher_);
+    visitState(state_, dynamics_.actuators(), faults_, motion_capture_, added_sensors_, hasher_);
     return hasher_.hash();
   }
 
@@ -172,7 +155,8 @@ class Plant::Impl {
   const AddedSignals& addedSensors() const { return added_sensors_.signals(); }
 
  private:
-  /// Together with the actuators all that must be saved to go on bit for bit.
+  /// Together with actuators, faults and motion capture all that must be saved to go on bit for
+  /// bit.
   struct State {
     State(const PlantConfig& config, int dim)
         : y(dim, 0.0),
@@ -186,21 +170,24 @@ class Plant::Impl {
     Imu imu;
   };
 
-  template <typename AnyState, typename AnyActuators, typename Visitor>
-  static void visitState(AnyState& s, AnyActuators& actuators, Visitor& visit) {
+  template <typename AnyState, typename Actuators, typename Faults, typename Capture,
+            typename Added, typename Visitor>
+  void visitState(AnyState& s, Actuators& actuators, Faults& faults, Capture& capture,
+                  Added& added, Visitor& visit) const {
+    visit.form(form_, [this](const std::string& saved) {
+      return fmt::format("saved plant state is of a plant with {}; this one has {}", saved, form_);
+    });
     visit(s.start);
     visit(s.now);
     visit(s.last_tick);
     visit(s.y);
     visit(s.yaw);
-    PlantDynamics::Actuators::visitState(actuators, visit);
-    DriveBank::visitState(s.drives, visit);
-    Imu::visitState(s.imu, visit);
-  }
-
-  template <typename States, typename Visitor>
-  static void visitAdded(States&& states, Visitor& visit) {
-    for (auto& state : states) visit(state);
+    visit(actuators);
+    visit(s.drives);
+    visit(s.imu);
+    visit(faults);
+    visit(capture);
+    visit(added);
   }
 
   bool isMultiple(SimTime t, SimDuration period) const {

@@ -44,7 +44,7 @@ class PlantDynamics final : public OdeSystem {
     }
     template <typename Self, typename Visitor>
     static void visitState(Self& self, Visitor& visit) {
-      for (auto& unit : self.units) SeriesElasticActuator::visitState(unit, visit);
+      visit(self.units);
     }
   };
   Actuators& actuators() { return actuators_; }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/state_visitors.hpp"
 #include "model/frames.hpp"
 #include "tests/model/robot_fixture.hpp"
 
@@ -129,13 +130,8 @@ TEST_F(CommandGovernorTest, AnOrientationStaysNearTheRobots) {
 TEST_F(CommandGovernorTest, ContinuesAfterASaveAsIfNothingWas) {
   schedule_.ball_position.step(0.1, {3, 4});
   followUntil(1);
-  BlobWriter out;
-  governor_.save(out);
-  const StateBlob blob = out.seal("test", 1);
   CommandGovernor other(robot_, limits_);
-  BlobReader in(blob, "test", 1);
-  other.restore(in);
-  in.finish();
+  restoreStateOf(other, saveStateOf(governor_, "test", 1), "test", 1);
   governor_.update(at(1.1), schedule_, x_, tip(Vector3::Zero()));
   other.update(at(1.1), schedule_, x_, tip(Vector3::Zero()));
   EXPECT_EQ(governor_.commands().ball_position.anchor, other.commands().ball_position.anchor);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/state_visitors.hpp"
 #include "model/frames.hpp"
 #include "tests/model/robot_fixture.hpp"
 
@@ -84,13 +85,9 @@ TEST(ContactSupervisor, ContinuesFromASavedState) {
   Supervised a(options);
   a.run(0.5, 5, 4);
   a.run(0.2, 5, 1);
-  BlobWriter out;
-  a.supervisor.save(out);
   Supervised b = a;
   b.supervisor = ContactSupervisor(options);
-  BlobReader in(out.seal("test", 1), "test", 1);
-  b.supervisor.restore(in);
-  in.finish();
+  restoreStateOf(b.supervisor, saveStateOf(a.supervisor, "test", 1), "test", 1);
   for (Supervised* s : {&a, &b}) s->run(0.1, 5, 1);
   EXPECT_EQ(a.supervisor.state(), b.supervisor.state());
   EXPECT_EQ(a.supervisor.situation().force_added, b.supervisor.situation().force_added);

@@ -263,6 +263,20 @@ TEST_F(MpcLawTest, ContinuesBitForBitFromASavedState) {
   EXPECT_EQ(law.saveState(), other.saveState());
 }
 
+TEST_F(MpcLawTest, RefusesAPlanOfAnotherHorizonAndStaysAsItWas) {
+  const MpcLaw law(robot_, config());
+  applyOverride(tree_, "mpc.horizon.length_s=0.8");
+  MpcLaw shorter(robot_, config());
+  const StateBlob before = shorter.saveState();
+  try {
+    shorter.restoreState(law.saveState());
+    FAIL() << "no error";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("knots of a plan where this one has"));
+  }
+  EXPECT_EQ(shorter.saveState(), before);
+}
+
 TEST_F(MpcLawTest, NoCallOfTheControlStepAllocates) {
   if (!allocationsAreCounted()) GTEST_SKIP() << "a sanitizer owns malloc";
   applyOverride(tree_, "mpc.contact_forces=true");

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "core/state_visitors.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
@@ -93,12 +94,8 @@ TEST(ContactForceObserver, ContinuesFromASavedStateAndIgnoresWhatIsNotFinite) {
   ObservedRobot a;
   for (int n = 0; n < 20; ++n) a.advance({-5, 0, 0});
   ObservedRobot b = a;
-  BlobWriter out;
-  a.observer.save(out);
   b.observer = ContactForceObserver(exampleRobot(), kBandwidth);
-  BlobReader in(out.seal("test", 1), "test", 1);
-  b.observer.restore(in);
-  in.finish();
+  restoreStateOf(b.observer, saveStateOf(a.observer, "test", 1), "test", 1);
   StateVector bad = b.x;
   bad[3] = std::nan("");
   b.observer.update(kSimStart + durationFromSeconds(1), bad, JointVector::Zero());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/state_visitors.hpp"
+
 namespace ballbot {
 namespace {
 
@@ -32,12 +34,7 @@ TEST(FeedforwardShare, LeavesOutTorquesTooSmallToMean) {
 TEST(FeedforwardShare, GoesOnAfterARestore) {
   FeedforwardShare share, other;
   share.add(joints(1, 1, 1, 1), joints(3, 3, 3, 3));
-  BlobWriter out;
-  share.save(out);
-  const StateBlob blob = out.seal("test", 1);
-  BlobReader in(blob, "test", 1);
-  other.restore(in);
-  in.finish();
+  restoreStateOf(other, saveStateOf(share, "test", 1), "test", 1);
   share.add(joints(1, 1, 1, 1), joints(0, 0, 0, 0));
   other.add(joints(1, 1, 1, 1), joints(0, 0, 0, 0));
   EXPECT_EQ(share.values(), other.values());

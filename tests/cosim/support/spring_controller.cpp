@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/state_visitors.hpp"
+
 namespace ballbot::testing_support {
 
 void SpringController::onSensors(SimTime now, const SensorFrame& sensors, DueTasks due,
@@ -29,18 +31,10 @@ void SpringController::onSensors(SimTime now, const SensorFrame& sensors, DueTas
   }
 }
 
-StateBlob SpringController::saveState() const {
-  BlobWriter out;
-  out.put(target_);
-  out.put(plans_);
-  return out.seal("spring_controller", 1);
-}
+StateBlob SpringController::saveState() const { return saveStateOf(*this, "spring_controller", 1); }
 
 void SpringController::restoreState(const StateBlob& blob) {
-  BlobReader in(blob, "spring_controller", 1);
-  target_ = in.get<double>();
-  plans_ = in.get<std::int64_t>();
-  in.finish();
+  restoreStateOf(*this, blob, "spring_controller", 1);
 }
 
 }  // namespace ballbot::testing_support

@@ -23,6 +23,12 @@ class SpringController final : public SteppedController {
   void commandNanFrom(SimTime t) { nan_from_ = t; }
   std::int64_t calls() const { return calls_; }
 
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.target_);
+    visit(self.plans_);
+  }
+
  private:
   TaskId tracker_, planner_;
   double target_ = 0;

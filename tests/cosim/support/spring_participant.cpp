@@ -4,6 +4,7 @@
 
 #include "core/digest.hpp"
 #include "core/error.hpp"
+#include "core/state_visitors.hpp"
 
 namespace ballbot::testing_support {
 
@@ -49,24 +50,10 @@ std::optional<TruthFrame> SpringParticipant::truth() const {
   return truth;
 }
 
-StateBlob SpringParticipant::saveState() const {
-  BlobWriter out;
-  out.put(toNs(time_));
-  out.put(steps_);
-  out.putDoubles(position_.data(), kJointCount);
-  out.putDoubles(velocity_.data(), kJointCount);
-  out.putVector(std::vector<double>(ballast_ / sizeof(double), 1.5));
-  return out.seal("spring", 1);
-}
+StateBlob SpringParticipant::saveState() const { return saveStateOf(*this, "spring", 1); }
 
 void SpringParticipant::restoreState(const StateBlob& blob) {
-  BlobReader in(blob, "spring", 1);
-  time_ = simTimeFromNs(in.get<std::int64_t>());
-  steps_ = in.get<std::int64_t>();
-  in.getDoubles(position_.data(), kJointCount);
-  in.getDoubles(velocity_.data(), kJointCount);
-  in.getVector();
-  in.finish();
+  restoreStateOf(*this, blob, "spring", 1);
   measure();
 }
 

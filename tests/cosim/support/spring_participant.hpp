@@ -33,8 +33,17 @@ class SpringParticipant : public Participant {
   /// Measures nan from this time on.
   void measureNanFrom(SimTime t) { nan_from_ = t; }
   /// A state so large that it needs many messages.
-  void carry(std::size_t bytes) { ballast_ = bytes; }
+  void carry(std::size_t bytes) { ballast_.assign(bytes, 7); }
   std::int64_t stepsDone() const { return steps_; }
+
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.time_);
+    visit(self.steps_);
+    visit(self.position_);
+    visit(self.velocity_);
+    visit(self.ballast_);
+  }
 
  private:
   struct Fresh {};
@@ -49,7 +58,7 @@ class SpringParticipant : public Participant {
   std::int64_t steps_ = 0;
   SensorFrame sensors_;
   SimTime fail_at_ = SimTime::max(), nan_from_ = SimTime::max();
-  std::size_t ballast_ = 0;
+  StateBlob ballast_;
 };
 
 }  // namespace ballbot::testing_support
