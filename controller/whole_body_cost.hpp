@@ -2,7 +2,7 @@
 
 #include "controller/constraints.hpp"
 #include "controller/cost_terms.hpp"
-#include "controller/riccati.hpp"
+#include "solver/riccati.hpp"
 #include "controller/tasks.hpp"
 #include "controller/terminal_cost.hpp"
 #include "model/reduced_dynamics.hpp"
