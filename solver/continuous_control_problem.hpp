@@ -11,7 +11,7 @@ namespace ballbot {
 ///
 ///   min int_0^T L(t, x, u) dt + L_T(x(T)),   dx/dt = f(t, x, u).
 ///
-/// Calls are free of allocation; equal arguments give equal bits.
+/// Calls may not throw; equal arguments give equal bits.
 template <int NX, int NU, typename Cost>
 class ContinuousControlProblem {
   static_assert(NX >= 1 && NU >= 1, "a problem has at least one state and one input");

@@ -24,7 +24,8 @@ struct ContinuousOptions {
 ///   -dS/dt = Q + A^T S + S A - G^T R^-1 G,  -ds/dt = q + A^T s - G^T R^-1 g,
 ///   G = P + B^T S,  g = r + B^T s,  K = -R^-1 G,  du = -R^-1 g
 ///
-/// Slower than SlqSolver and independent of it in everything but model and cost: its oracle.
+/// Slower than SlqSolver and independent of it in everything but model and cost: its oracle. Its
+/// integrators allocate when they start.
 template <int NX, int NU, typename Cost>
 class ContinuousSlq {
  public:
@@ -45,7 +46,7 @@ class ContinuousSlq {
 
   const std::vector<double>& knots() const noexcept { return knots_; }
 
-  /// Improves `guess`, which is read by time as RealTimeIteration does. Free of allocation.
+  /// Improves `guess`, which is read by time as RealTimeIteration does.
   template <typename Guess>
   Report solve(Problem& problem, const X& x0, const Guess& guess, double age,
                int iterations) noexcept {

@@ -85,13 +85,16 @@ TEST(ShapedInput, OverAShortStepItIsTheRateTimesItsLength) {
   expandShapedCost(step, w, 1, 0, xf, u, stage);
   linearizeFilter(step, 1, 0, stage);
   expandShapedRate(shaping, w, 1, 0, xf, u, rates);
-  EXPECT_NEAR(stage.q()[1] / h, rates.q()[1], 1e-2);
-  EXPECT_NEAR(stage.r()[0] / h, rates.r()[0], 1e-1);
-  EXPECT_NEAR(stage.Q()(1, 1) / h, rates.Q()(1, 1), 1e-1);
-  EXPECT_NEAR(stage.R()(0, 0) / h, rates.R()(0, 0), 1e-1);
-  EXPECT_NEAR(stage.Pt()(1, 0) / h, rates.Pt()(1, 0), 1e-1);
-  EXPECT_NEAR((stage.A()(1, 1) - 1) / h, rates.A()(1, 1), 1e-1);
-  EXPECT_NEAR(stage.B()(1, 0) / h, rates.B()(1, 0), 1e-1);
+  const auto expectNear = [h](double over_step, double rate) {
+    EXPECT_NEAR(over_step / h, rate, 1e-4 * std::abs(rate));
+  };
+  expectNear(stage.q()[1], rates.q()[1]);
+  expectNear(stage.r()[0], rates.r()[0]);
+  expectNear(stage.Q()(1, 1), rates.Q()(1, 1));
+  expectNear(stage.R()(0, 0), rates.R()(0, 0));
+  expectNear(stage.Pt()(1, 0), rates.Pt()(1, 0));
+  expectNear(stage.A()(1, 1) - 1, rates.A()(1, 1));
+  expectNear(stage.B()(1, 0), rates.B()(1, 0));
 }
 
 }  // namespace

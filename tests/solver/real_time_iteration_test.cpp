@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/riccati_equation_impl.hpp"
 #include "solver/sampled_policy.hpp"
 #include "solver/slq_solver_impl.hpp"
 #include "tests/solver/support/allocation_counter.hpp"
@@ -43,6 +44,23 @@ class RealTimeIterationTest : public testing::Test {
     for (int k = 0; k <= kStages; ++k) knots_.push_back(kStep * k);
     iteration_ = std::make_unique<Iteration>(knots_, SlqOptions{});
   }
+  /// Beginning from the LQR's feedback.
+  Policy firstPlan(const Eigen::Vector4d& x0) {
+    Eigen::Matrix4d A;
+    Eigen::Vector4d B;
+    model_.linearize(Eigen::Vector4d::Zero(), Problem::U::Zero(), A, B);
+    const Eigen::Matrix4d G = B * B.transpose() / model_.force_weight;
+    const Eigen::Matrix4d S = solveContinuousRiccati<4>(A, G, model_.weight.asDiagonal());
+    FeedbackTrajectory<4, 1> lqr;
+    lqr.reset(kStages + 1, kStages);
+    for (auto& gain : lqr.gain) gain.K() = -B.transpose() * S / model_.force_weight;
+    Policy policy(iteration_->knots(), iteration_->controlTimes());
+    policy.set(lqr);
+    const auto report = iteration_->solve(problem_, x0, policy, 0, 100);
+    EXPECT_EQ(report.status, SlqStatus::kConverged) << slqStatusName(report.status);
+    policy.set(iteration_->solution());
+    return policy;
+  }
   static constexpr int kStages = 60;
   static constexpr double kStep = 0.02;
   const CartPole model_;
@@ -52,10 +70,8 @@ class RealTimeIterationTest : public testing::Test {
 };
 
 TEST_F(RealTimeIterationTest, OneIterationEverySevenMillisecondsBalancesThePole) {
-  Policy policy(iteration_->knots(), iteration_->controlTimes());  // zero: an absent guess
-  Eigen::Vector4d x(0.3, 0.5, 0, -0.5);
-  ASSERT_TRUE(iteration_->solve(problem_, x, policy, 0, 20).ok());
-  policy.set(iteration_->solution());
+  Eigen::Vector4d x(0.3, 0.3, 0, -0.5);
+  Policy policy = firstPlan(x);
   constexpr double kPeriod = 0.007;  // no multiple of the steps
   for (int i = 0; i < 700; ++i) {
     for (int j = 0; j < 7; ++j) {
@@ -72,10 +88,8 @@ TEST_F(RealTimeIterationTest, OneIterationEverySevenMillisecondsBalancesThePole)
 }
 
 TEST_F(RealTimeIterationTest, OfTheSolutionAtTheSameInstantChangesNothing) {
-  Policy policy(iteration_->knots(), iteration_->controlTimes());
   const Eigen::Vector4d x(0.1, 0.3, 0, 0);
-  ASSERT_TRUE(iteration_->solve(problem_, x, policy, 0, 100).ok());
-  policy.set(iteration_->solution());
+  const Policy policy = firstPlan(x);
   const auto before = iteration_->solution();
   const auto report = iteration_->solve(problem_, x, policy, 0, 1);
   EXPECT_EQ(report.status, SlqStatus::kConverged);
