@@ -83,7 +83,7 @@ void mpcIteration(benchmark::State& state, MpcConfig::Engine kind, double length
   x[kPositionDim + kBallVy] += 0.02;
   std::int64_t approximation = 0, riccati = 0, search = 0;
   for (auto _ : state) {
-    const SlqReport report = engine->solve(now, x, plan, 1, next);
+    const MpcSolveReport report = engine->solve(now, x, plan, 1, next);
     benchmark::DoNotOptimize(next);
     if (!report.ok() || report.step_length == 0) state.SkipWithError("no step taken");
     approximation += report.times.approximation_ns;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "controller/relaxed_barrier.hpp"
+#include "solver/relaxed_barrier.hpp"
 #include "model/robot_parameters.hpp"
 
 namespace ballbot {

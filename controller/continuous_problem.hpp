@@ -1,36 +1,47 @@
 #pragma once
 
-#include "controller/frequency_shaping.hpp"
-#include "controller/optimal_control_problem.hpp"
-#include "controller/whole_body_problem.hpp"
+#include <memory>
+
+#include "controller/whole_body_cost.hpp"
+#include "solver/continuous_control_problem.hpp"
+#include "solver/frequency_shaping.hpp"
 
 namespace ballbot {
 
 /// The whole-body problem in continuous time: dx/dt = f(x, u) of (q, nu, x_f) and the cost rate
 /// L(x, u), with their expansions. Same tasks, constraints and shaping as WholeBodyProblem.
 template <int NU>
-class ContinuousProblem {
+class ContinuousProblem final : public ContinuousControlProblem<kMpcStateDim, NU, CostTerms> {
  public:
-  using X = Eigen::Matrix<double, kMpcStateDim, 1>;
-  using U = Eigen::Matrix<double, NU, 1>;
-  using Expansion = LqStage<kMpcStateDim, NU>;  ///< A, B: derivatives of f; costs: of the rate L
+  using Base = ContinuousControlProblem<kMpcStateDim, NU, CostTerms>;
+  using X = typename Base::X;
+  using U = typename Base::U;
+  using Expansion = typename Base::Expansion;
 
   ContinuousProblem(const RobotParameters& robot, const Constraints& constraints,
-                    const FrequencyShaping& shaping, const TerminalCost& terminal);
+                    const FrequencyShaping& shaping, const TerminalCost& terminal,
+                    std::shared_ptr<const TaskSchedule> schedule);
 
-  void flow(const X& x, const U& u, const Tasks& tasks, X& dx) const noexcept;
-  /// Adds L.
-  void addCostRate(const X& x, const U& u, const Tasks& tasks, CostTerms& terms) const noexcept;
-  void expand(const X& x, const U& u, const Tasks& tasks, X& dx, Expansion& out) const noexcept;
+  /// For a horizon that starts at t0 [s].
+  void setHorizon(double t0, const ContactSituation& contact,
+                  const GovernedCommands& commands) noexcept;
 
-  void addFinalCost(const X& x, const Tasks& tasks, CostTerms& terms) const noexcept;
-  void expandFinalCost(const X& x, const Tasks& tasks,
-                       ValueFunction<kMpcStateDim>& value) const noexcept;
+  void setTime(double t) noexcept override;
+  void flow(const X& x, const U& u, X& dx) const noexcept override;
+  void addCostRate(const X& x, const U& u, CostTerms& terms) const noexcept override;
+  void expand(const X& x, const U& u, X& dx, Expansion& out) const noexcept override;
+  void addFinalCost(const X& x, CostTerms& terms) const noexcept override;
+  void expandFinalCost(const X& x, ValueFunction<kMpcStateDim>& value) const noexcept override;
 
  private:
   ReducedDynamics dynamics_;
   WholeBodyCost cost_;
   FrequencyShaping shaping_;
+  std::shared_ptr<const TaskSchedule> schedule_;
+  double t0_ = 0;
+  ContactSituation contact_;
+  GovernedCommands commands_;
+  Tasks tasks_;  ///< of the time that was set
 };
 
 }  // namespace ballbot

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "controller/cost_terms.hpp"
-#include "controller/phase_clock.hpp"
+#include "solver/phase_clock.hpp"
 #include "core/state_blob.hpp"
 #include "core/time.hpp"
 #include "model/state.hpp"

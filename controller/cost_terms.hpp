@@ -38,8 +38,9 @@ constexpr int kMaxAddedTasks = 8;
 const char* costTermName(CostTerm term);
 
 /// A cost split by term, and how far the worst inequality is violated, each in its own unit
-/// (N m, N, rad, rad/s); 0 if all hold.
+/// (N m, N, rad, rad/s); 0 if all hold. The solver's Cost (solver/cost_contract.hpp).
 struct CostTerms {
+  static constexpr int kCount = kCostTermCount;
   std::array<double, kCostTermCount> value{};
   std::array<double, kMaxAddedTasks> added{};  ///< of the tasks added, in their order
   double violation = 0;

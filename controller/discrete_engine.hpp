@@ -5,10 +5,11 @@
 
 #include "controller/mpc_engine.hpp"
 #include "controller/whole_body_problem.hpp"
+#include "solver/real_time_iteration.hpp"
 
 namespace ballbot {
 
-/// SLQ on a fixed or graded grid of knots (SlqSolver, WholeBodyProblem): the fast default.
+/// SLQ on a fixed or graded grid of knots (RealTimeIteration, WholeBodyProblem): the fast default.
 /// NU = 9 plans contact forces; NU = 6 leaves them out.
 template <int NU>
 class DiscreteEngine final : public MpcEngine {
@@ -19,17 +20,16 @@ class DiscreteEngine final : public MpcEngine {
                  const SlqOptions& options);
 
   MpcPolicy emptyPolicy() const override;
-  SlqReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
-                  MpcPolicy& out) noexcept override;
+  MpcSolveReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
+                       MpcPolicy& out) noexcept override;
   void setClock(PhaseClock clock) noexcept override { solver_.setClock(clock); }
   double shift() const noexcept override { return solver_.shift(); }
   void setShift(double shift) noexcept override { solver_.setShift(shift); }
 
  private:
-  std::vector<double> knots_;
   std::shared_ptr<const TaskSchedule> schedule_;
   WholeBodyProblem<NU> problem_;
-  SlqSolver<kMpcStateDim, NU> solver_;
+  RealTimeIteration<kMpcStateDim, NU, CostTerms> solver_;
 };
 
 }  // namespace ballbot

@@ -6,7 +6,7 @@
 
 #include "controller/constraints.hpp"
 #include "controller/control_law.hpp"
-#include "controller/frequency_shaping.hpp"
+#include "solver/frequency_shaping.hpp"
 #include "model/added_signals.hpp"
 #include "model/motion_reference.hpp"
 #include "model/reduced_dynamics.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "controller/riccati_equation.hpp"
+#include "solver/riccati_equation.hpp"
 #include "core/config_visitor.hpp"
 #include "model/dynamics_constants.hpp"
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "controller/mpc_policy.hpp"
-#include "controller/slq_solver.hpp"
+#include "solver/slq_report.hpp"
 
 namespace ballbot {
+
+using MpcSolveReport = SlqReport<CostTerms>;
 
 /// Solves the whole-body problem over the horizon: the discrete engine or the continuous-time one.
 class MpcEngine {
@@ -17,8 +19,8 @@ class MpcEngine {
   /// @param iterations  at most; 1 is the real-time iteration
   /// @param out  the plan, where the report is ok(); joint set-points are not filled. May not be
   ///             `guess`.
-  virtual SlqReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
-                          MpcPolicy& out) noexcept = 0;
+  virtual MpcSolveReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess,
+                               int iterations, MpcPolicy& out) noexcept = 0;
 
   /// For the solves that follow.
   void setContact(const ContactSituation& contact) noexcept { contact_ = contact; }

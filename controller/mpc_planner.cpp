@@ -5,6 +5,7 @@
 #include "controller/continuous_engine.hpp"
 #include "controller/discrete_engine.hpp"
 #include "controller/reference_limits.hpp"
+#include "controller/solver_settings.hpp"
 #include "core/config_visitor.hpp"
 #include "core/error.hpp"
 
@@ -74,7 +75,7 @@ void MpcConfig::describe(ConfigVisitor& v) {
                "which is slower and checks the other"),
            engine, {{"discrete", Engine::kDiscrete}, {"continuous", Engine::kContinuous}});
   v.section(may("horizon", "how far plans look ahead, and in which steps"),
-            [&](ConfigVisitor& in) { horizon.describe(in); });
+            [&](ConfigVisitor& in) { ballbot::describe(in, horizon); });
   v.integer(may("iterations", "steps of the solver for each plan; more come closer to the optimum"),
             iterations, {1, 1000});
   v.integer(may("first_iterations", "steps of the solver for a plan that starts from the LQR"),
@@ -105,7 +106,7 @@ void MpcConfig::describe(ConfigVisitor& v) {
   });
   v.section(
       may("wheel_shaping", "weight on those torques of the wheels that their drives cannot follow"),
-      [&](ConfigVisitor& in) { shaping.describe(in); });
+      [&](ConfigVisitor& in) { ballbot::describe(in, shaping); });
   v.section(may("constraints", "limits that plans keep, each as a barrier in the cost"),
             [&](ConfigVisitor& in) { constraints.describe(in); });
   v.section(may("terminal", "what comes after the horizon, as a cost of its end"),
@@ -125,10 +126,16 @@ MpcConfig MpcConfig::read(ConfigReader& in, const RobotParameters& robot) {
   requireTorqueTasks(in);
   readDescribed(in, c);
   c.constraints.takeShares(robot);
-  if (in.has("horizon")) c.horizon.requireWholeSteps(in.child("horizon"));
+  if (in.has("horizon")) requireWholeSteps(in.child("horizon"), c.horizon);
   if (c.contact_moments && !c.contact_forces) {
     throw InputError(
         fmt::format("{} is true, needs contact_forces: true beside it", in.at("contact_moments")));
+  }
+  if (c.engine == MpcConfig::Engine::kContinuous && !c.schedule->added.empty()) {
+    throw InputError(fmt::format(
+        "{} is continuous, which knows no tasks on frames and none that were added: leave them out, "
+        "or set engine: discrete",
+        in.at("engine")));
   }
   if (toSeconds(c.fallback_after) > c.horizon.length) {
     throw InputError(fmt::format(
@@ -216,7 +223,7 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
   if (!fresh) seedFrom(stand_in, now, x[kYaw]);
   MpcState x0;
   x0 << x, xf;
-  const SlqReport slq = engine_->solve(now, x0, fresh ? previous : seed_,
+  const MpcSolveReport slq = engine_->solve(now, x0, fresh ? previous : seed_,
                                        fresh ? config_.iterations : config_.first_iterations, out);
   if (slq.ok()) out.integrateJoints(dynamics_, joint_angle);
 

@@ -1,50 +1,23 @@
 #include "controller/mpc_policy.hpp"
 
-#include <algorithm>
+#include "solver/between_samples.hpp"
 
 namespace ballbot {
-namespace {
-
-/// Neighbours of time t in a list ordered by time, and the share of the later one.
-template <typename Sample>
-struct Between {
-  const Sample *before, *after;
-  double share;
-
-  Between(const std::vector<Sample>& samples, double t) {
-    const auto later = std::upper_bound(samples.begin(), samples.end(), t,
-                                        [](double value, const Sample& s) { return value < s.time; });
-    if (later == samples.begin() || later == samples.end()) {
-      before = after = later == samples.begin() ? &samples.front() : &samples.back();
-      share = 0;
-    } else {
-      after = &*later;
-      before = after - 1;
-      share = (t - before->time) / (after->time - before->time);
-    }
-  }
-  template <typename T>
-  T of(T Sample::* member) const {
-    return before->*member + share * (after->*member - before->*member);
-  }
-};
-
-}  // namespace
 
 MpcState MpcPolicy::stateAt(double t) const noexcept {
-  return Between<Knot>(knots_, t).of(&Knot::x);
+  return BetweenSamples<Knot>(knots_, t).of(&Knot::x);
 }
 
 void MpcPolicy::controlAt(double t, MpcInput& u, MpcGain& K) const noexcept {
-  const Between<Control> between(controls_, t);
+  const BetweenSamples<Control> between(controls_, t);
   u = between.of(&Control::u);
   K = between.of(&Control::K);
 }
 
 void MpcPolicy::sample(SimTime now, const Vector3& xf, PolicySample& out) const noexcept {
   const double t = toSeconds(now - stamp_);
-  const Between<Knot> knot(knots_, t);
-  const Between<Control> control(controls_, t);
+  const BetweenSamples<Knot> knot(knots_, t);
+  const BetweenSamples<Control> control(controls_, t);
   const MpcState x = knot.of(&Knot::x);
   out.x = x.head<kStateDim>();
   out.joint_position = knot.of(&Knot::joint_position);

@@ -1,7 +1,7 @@
 #include "controller/shaped_lqr.hpp"
 
-#include "controller/riccati_equation.hpp"
-#include "controller/vector_kernels.hpp"
+#include "solver/riccati_equation.hpp"
+#include "solver/vector_kernels.hpp"
 
 namespace ballbot {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "controller/constraints.hpp"
-#include "controller/frequency_shaping.hpp"
+#include "solver/frequency_shaping.hpp"
 #include "controller/tasks.hpp"
 #include "controller/whole_body_cost.hpp"
 #include "model/reduced_dynamics.hpp"

@@ -4,7 +4,7 @@
 
 #include "controller/lqr.hpp"
 #include "controller/mpc_dimensions.hpp"
-#include "controller/riccati.hpp"
+#include "solver/riccati.hpp"
 #include "controller/tasks.hpp"
 
 namespace ballbot {

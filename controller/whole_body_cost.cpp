@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "controller/vector_kernels.hpp"
+#include "solver/vector_kernels.hpp"
 
 namespace ballbot {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "controller/contact_input.hpp"
 #include "controller/euler_rates.hpp"
+#include "solver/shaped_input.hpp"
 
 namespace ballbot {
 namespace {
@@ -155,11 +156,7 @@ void WholeBodyProblem<NU>::linearizeStage(int k, const X& x, const PositionVecto
   B.template block<8, NU>(0, 0) = 0.5 * H * tTimes(at_mid, nu_u);
   B.template block<8, NU>(kQ, 0) = nu_u;
 
-  for (int i = 0; i < kFilterDim; ++i) {
-    const FilterStep& filter = steps_[k];
-    A(kStateDim + i, kStateDim + i) = filter.a;
-    B(kStateDim + i, i) = 1 - filter.a;
-  }
+  for (int i = 0; i < kFilterDim; ++i) linearizeFilter(steps_[k], kStateDim + i, i, lq);
 }
 
 template <int NU>
@@ -205,20 +202,11 @@ void WholeBodyProblem<NU>::approximateCost(int k, const X& x, const U& u,
   auto r = lq.r();
   setInputExpansion<NU>(input, R, r);
 
-  // 1/2 w (H u^2 + 2 c1 u d + c2 d^2), d = u - x_f
-  auto Q = lq.Q();
-  auto q = lq.q();
-  auto Pt = lq.Pt();
   const double w = tasks.wheel_torque_weight;
   for (int i = 0; i < kFilterDim; ++i) {
     const int at = kStateDim + i;
-    const double d = u[i] - x[at];
     terms.value[kWheelTorqueCost] += 0.5 * w * f.cost(x[at], u[i]);
-    R(i, i) += w * (f.H + 2 * f.c1 + f.c2);
-    r[i] += w * (f.H * u[i] + f.c1 * (u[i] + d) + f.c2 * d);
-    Q(at, at) += w * f.c2;
-    q[at] += -w * (f.c1 * u[i] + f.c2 * d);
-    Pt(at, i) = -w * (f.c1 + f.c2);
+    expandShapedCost(f, w, at, i, x[at], u[i], lq);
   }
 }
 

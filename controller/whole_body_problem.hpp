@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "controller/frequency_shaping.hpp"
-#include "controller/optimal_control_problem.hpp"
+#include "solver/frequency_shaping.hpp"
+#include "solver/optimal_control_problem.hpp"
 #include "controller/whole_body_cost.hpp"
 
 namespace ballbot {
@@ -19,9 +19,9 @@ namespace ballbot {
 ///
 /// The state's cost is integrated by the trapezoidal rule, the input's exactly.
 template <int NU>
-class WholeBodyProblem final : public OptimalControlProblem<kMpcStateDim, NU> {
+class WholeBodyProblem final : public OptimalControlProblem<kMpcStateDim, NU, CostTerms> {
  public:
-  using Base = OptimalControlProblem<kMpcStateDim, NU>;
+  using Base = OptimalControlProblem<kMpcStateDim, NU, CostTerms>;
   using X = typename Base::X;
   using U = typename Base::U;
   using Stage = LqStage<kMpcStateDim, NU>;

@@ -6,7 +6,7 @@
 
 #include "controller/rigid_arm.hpp"
 #include "core/error.hpp"
-#include "tests/controller/support/allocation_counter.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/controller/support/closed_loop.hpp"
 #include "tests/model/robot_fixture.hpp"
 #include "tests/controller/support/make_law.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/controller/support/eigenvalues.hpp"
+#include "tests/solver/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {

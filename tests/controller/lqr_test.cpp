@@ -7,10 +7,10 @@
 #include <Eigen/LU>
 #include <gmock/gmock.h>
 
-#include "controller/riccati_equation.hpp"
+#include "solver/riccati_equation.hpp"
 #include "core/config_visitor.hpp"
 #include "core/error.hpp"
-#include "tests/controller/support/eigenvalues.hpp"
+#include "tests/solver/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "controller/mpc_planner.hpp"
-#include "tests/controller/support/allocation_counter.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
@@ -56,12 +56,12 @@ class MpcEngineTest : public testing::Test {
     seed.setValid(kSimStart);
     return seed;
   }
-  SlqReport converged(MpcConfig::Engine kind, double step, MpcPolicy* plan = nullptr) {
+  MpcSolveReport converged(MpcConfig::Engine kind, double step, MpcPolicy* plan = nullptr) {
     config_.engine = kind;
     config_.horizon.coarse_step = step;
     const auto engine = makeEngine(robot_, config_);
     MpcPolicy out = engine->emptyPolicy();
-    const SlqReport report = engine->solve(kSimStart, x0_, seedFor(*engine), 60, out);
+    const MpcSolveReport report = engine->solve(kSimStart, x0_, seedFor(*engine), 60, out);
     if (plan) *plan = out;
     return report;
   }
@@ -116,8 +116,8 @@ TEST_F(MpcEngineTest, DiscreteAndContinuousConvergeToTheSameCostOnEveryTask) {
     c.set(schedule);
     config_.schedule = std::make_shared<TaskSchedule>(schedule);
     config_.contact_forces = c.contact;
-    const SlqReport discrete = converged(MpcConfig::Engine::kDiscrete, 0.0025);
-    const SlqReport continuous = converged(MpcConfig::Engine::kContinuous, 0.01);
+    const MpcSolveReport discrete = converged(MpcConfig::Engine::kDiscrete, 0.0025);
+    const MpcSolveReport continuous = converged(MpcConfig::Engine::kContinuous, 0.01);
     ASSERT_EQ(discrete.status, SlqStatus::kConverged) << c.name;
     ASSERT_TRUE(continuous.ok()) << c.name;
     EXPECT_NEAR(discrete.cost, continuous.cost, 1e-3 * continuous.cost) << c.name;
@@ -148,10 +148,10 @@ TEST_F(MpcEngineTest, AGradedGridPlansNearlyWhatAFineOneDoes) {
   TaskSchedule schedule = regularised();
   schedule.ball_position_weight = two(100);
   config_.schedule = std::make_shared<TaskSchedule>(schedule);
-  const SlqReport fine = converged(MpcConfig::Engine::kDiscrete, 0.01);
+  const MpcSolveReport fine = converged(MpcConfig::Engine::kDiscrete, 0.01);
   config_.horizon.fine_length = 0.2;
   config_.horizon.fine_step = 0.01;
-  const SlqReport graded = converged(MpcConfig::Engine::kDiscrete, 0.02);
+  const MpcSolveReport graded = converged(MpcConfig::Engine::kDiscrete, 0.02);
   EXPECT_NEAR(graded.cost, fine.cost, 5e-3 * fine.cost);
 }
 

@@ -8,7 +8,7 @@
 
 #include "controller/background_mpc_law.hpp"
 #include "core/error.hpp"
-#include "tests/controller/support/allocation_counter.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/controller/support/closed_loop.hpp"
 #include "tests/model/robot_fixture.hpp"
 

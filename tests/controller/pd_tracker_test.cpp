@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
-#include "tests/controller/support/allocation_counter.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {

@@ -6,7 +6,7 @@
 
 #include "controller/mpc_law.hpp"
 #include "model/frames.hpp"
-#include "tests/controller/support/eigenvalues.hpp"
+#include "tests/solver/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {

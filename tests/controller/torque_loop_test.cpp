@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "controller/lqr.hpp"
-#include "tests/controller/support/eigenvalues.hpp"
+#include "tests/solver/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {

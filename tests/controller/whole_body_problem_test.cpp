@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "model/frames.hpp"
-#include "tests/controller/support/eigenvalues.hpp"
+#include "tests/solver/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {

@@ -2,7 +2,7 @@
 
 #include "estimator/complementary_observer.hpp"
 #include "estimator/two_state_filter.hpp"
-#include "tests/controller/support/allocation_counter.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/estimator/support/simulated_sensors.hpp"
 
 namespace ballbot::test {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "hil/recorder/recorded_bus.hpp"
-#include "tests/controller/support/allocation_counter.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/hil/support/bench_fixture.hpp"
 
 namespace ballbot {

@@ -6,7 +6,8 @@ set(may_messages core model)
 set(may_cosim core model messages)
 set(may_plant core model)
 set(may_estimator core model)
-set(may_controller core model)
+set(may_solver core)
+set(may_controller core model solver)
 set(may_metrics core model estimator)
 set(may_report core)
 set(may_experiment core model cosim plant estimator controller metrics report fmi)
@@ -14,6 +15,7 @@ set(may_hil core model cosim plant report)
 set(may_fmi core model cosim plant)
 set(may_studies core experiment report)
 set(may_tools core model messages cosim plant metrics report experiment hil fmi studies)
+set(may_examples solver)
 
 # The plant's face to the co-simulation is the one file of plant/ that knows cosim.
 set(may_plant_participant ${may_plant} cosim)
@@ -23,6 +25,11 @@ set(never_plant model/reduced_dynamics.hpp model/newton_euler.hpp model/residual
     model/dynamics_lanes.hpp model/end_effector.hpp)
 set(never_controller model/truth.hpp model/signal_table.hpp model/signal_check.hpp)
 set(never_estimator model/truth.hpp model/signal_table.hpp model/signal_check.hpp)
+
+# What solves problems of any kind knows no files to read them from.
+file(GLOB_RECURSE core_headers RELATIVE ${SOURCE_DIR} ${SOURCE_DIR}/core/*.hpp)
+list(FILTER core_headers EXCLUDE REGEX "core/(angle|error)\\.hpp")
+set(never_solver ${core_headers})
 
 # Emulated drives that shared the master's codec would share its mistakes: of hil/ they may know
 # only what carries frames, and nothing of hil/ may know them.
@@ -86,7 +93,7 @@ foreach(file ${files})
   endforeach()
 endforeach()
 # What is allowed and not used is no rule, only a hole.
-foreach(folder core model messages cosim plant estimator controller metrics report experiment hil fmi studies tools)
+foreach(folder core model messages cosim plant estimator solver controller metrics report experiment hil fmi studies tools examples)
   foreach(target ${may_${folder}})
     if(seen GREATER 0 AND NOT used_${folder}_${target})
       message(SEND_ERROR "${folder}/ may include ${target}/ and does not: take it off its list here.")
