@@ -21,8 +21,8 @@ struct TaskTarget {
   Vector3 weight = Vector3::Zero(), reference = Vector3::Zero();
 };
 
-/// A task beside those that the whole-body cost has a kernel for: 1/2 sum_i w_i e_i(x)^2 is added to
-/// the rate of the plan's cost, with the Gauss-Newton Hessian. docs/adding.md walks through one.
+/// A task beside those that the whole-body cost has a kernel for: 1/2 sum_i w_i e_i(x)^2 is added
+/// to the rate of the plan's cost, with the Gauss-Newton Hessian. docs/adding.md walks through one.
 class AddedTask {
  public:
   virtual ~AddedTask() = default;

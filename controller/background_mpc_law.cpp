@@ -73,8 +73,9 @@ void BackgroundMpcLaw::commanded(SimTime, SimDuration period, const JointVector&
 }
 
 StateBlob BackgroundMpcLaw::saveState() const {
-  throw InputError("a controller with mpc.solver_thread: true cannot be saved or restored; set it "
-                   "to false for runs that must repeat");
+  throw InputError(
+      "a controller with mpc.solver_thread: true cannot be saved or restored; set it "
+      "to false for runs that must repeat");
 }
 
 void BackgroundMpcLaw::restoreState(const StateBlob&) { saveState(); }

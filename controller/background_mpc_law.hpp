@@ -1,9 +1,9 @@
 #pragma once
 
-#include <semaphore.h>
-
 #include <atomic>
 #include <thread>
+
+#include <semaphore.h>
 
 #include "controller/latest_value.hpp"
 #include "controller/mpc_execution.hpp"
@@ -11,10 +11,10 @@
 
 namespace ballbot {
 
-/// Whole-body MPC with the solver in a thread of its own, for real time. plan() leaves a request and
-/// returns at once with the report of the last solve that was finished; activatePlan() takes the
-/// newest finished plan, if there is one. No call but the constructor locks, waits or allocates.
-/// When a plan is ready depends on the machine: runs that must repeat use MpcLaw.
+/// Whole-body MPC with the solver in a thread of its own, for real time. plan() leaves a request
+/// and returns at once with the report of the last solve that was finished; activatePlan() takes
+/// the newest finished plan, if there is one. No call but the constructor locks, waits or
+/// allocates. When a plan is ready depends on the machine: runs that must repeat use MpcLaw.
 class BackgroundMpcLaw final : public ControlLaw {
  public:
   BackgroundMpcLaw(const RobotParameters& robot, const MpcConfig& config);

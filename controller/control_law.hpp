@@ -1,10 +1,10 @@
 #pragma once
 
 #include "controller/cost_terms.hpp"
-#include "solver/phase_clock.hpp"
 #include "core/state_blob.hpp"
 #include "core/time.hpp"
 #include "model/state.hpp"
+#include "solver/phase_clock.hpp"
 
 namespace ballbot {
 
@@ -12,11 +12,11 @@ using FeedbackGain = Eigen::Matrix<double, kJointCount, kStateDim>;
 
 /// What to do at one instant: tau = torque + feedback (x - x_ref), and set-points for joint PD.
 struct PolicySample {
-  StateVector x = StateVector::Zero();              ///< reference state x_ref
-  JointVector torque = JointVector::Zero();         ///< feedforward [N m]
-  FeedbackGain feedback = FeedbackGain::Zero();     ///< K, multiplies x - x_ref
-  JointVector joint_position = JointVector::Zero(); ///< wheels: integrated along the plan [rad]
-  JointVector joint_velocity = JointVector::Zero(); ///< [rad/s]
+  StateVector x = StateVector::Zero();               ///< reference state x_ref
+  JointVector torque = JointVector::Zero();          ///< feedforward [N m]
+  FeedbackGain feedback = FeedbackGain::Zero();      ///< K, multiplies x - x_ref
+  JointVector joint_position = JointVector::Zero();  ///< wheels: integrated along the plan [rad]
+  JointVector joint_velocity = JointVector::Zero();  ///< [rad/s]
   bool from_stand_in = false;  ///< not the law itself: what acts for lack of a plan. Not saved
 
   template <typename Self, typename Visitor>
@@ -40,9 +40,9 @@ struct ContactReport {
 enum class PlanStatus : int {
   kNothingToSolve = 0,  ///< the law has no solver
   kImproved = 1,
-  kConverged = 2,       ///< nothing left to gain
-  kNoDescent = 3,       ///< no step length lowered the cost
-  kNotFinite = 4,       ///< the problem, or the last plan rolled out anew, is not finite
+  kConverged = 2,  ///< nothing left to gain
+  kNoDescent = 3,  ///< no step length lowered the cost
+  kNotFinite = 4,  ///< the problem, or the last plan rolled out anew, is not finite
   kNotConvex = 5,
   kStateNotFinite = 6,  ///< the estimate it was to start from
 };
@@ -50,7 +50,7 @@ const char* planStatusName(PlanStatus status);
 
 /// What happened inside a plan() call, for the record.
 struct PlanReport {
-  bool accepted = true;      ///< false: the previous policy stays in force
+  bool accepted = true;  ///< false: the previous policy stays in force
   int iterations = 0;
   double cost = 0;
   double step_length = 0;
@@ -73,7 +73,8 @@ class ControlLaw {
 
   /// Plans from the estimate `x` and the measured joint angles, both of time `now`. The plan is
   /// stamped with `now`; who calls decides from when on it may act (computation latency).
-  virtual PlanReport plan(SimTime now, const StateVector& x, const JointVector& joint_angle) noexcept = 0;
+  virtual PlanReport plan(SimTime now, const StateVector& x,
+                          const JointVector& joint_angle) noexcept = 0;
 
   /// Force of the environment on the end-effector as measured, for the next plan() [N].
   virtual void setContactForce(const Vector3& force_W) noexcept { (void)force_W; }

@@ -25,14 +25,14 @@ class DecoupledSettings final : public MpcSettings {
 }  // namespace
 
 LawKind decoupledKind() {
-  return {
-      "decoupled",
-      {lqrSection(), mpcSection(),
-       {may("decoupled", "settings of the arm where it is controlled apart from the base"),
-        [](ConfigVisitor& v, const RobotParameters&) { DecoupledConfig().describe(v); }}},
-      [](ConfigReader& in, const RobotParameters& robot) -> std::unique_ptr<LawSettings> {
-        return std::make_unique<DecoupledSettings>(in, robot);
-      }};
+  return {"decoupled",
+          {lqrSection(),
+           mpcSection(),
+           {may("decoupled", "settings of the arm where it is controlled apart from the base"),
+            [](ConfigVisitor& v, const RobotParameters&) { DecoupledConfig().describe(v); }}},
+          [](ConfigReader& in, const RobotParameters& robot) -> std::unique_ptr<LawSettings> {
+            return std::make_unique<DecoupledSettings>(in, robot);
+          }};
 }
 
 }  // namespace ballbot

@@ -6,11 +6,11 @@
 
 #include "controller/constraints.hpp"
 #include "controller/control_law.hpp"
-#include "solver/frequency_shaping.hpp"
 #include "model/added_signals.hpp"
 #include "model/motion_reference.hpp"
 #include "model/reduced_dynamics.hpp"
 #include "model/robot_parameters.hpp"
+#include "solver/frequency_shaping.hpp"
 
 namespace ballbot {
 

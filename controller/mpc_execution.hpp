@@ -4,8 +4,8 @@
 
 namespace ballbot {
 
-/// What acts between two plans, whoever solves them: the plan in force while it is young enough, and
-/// else an LQR that holds the robot where the last good plan left it; the state of the shaping
+/// What acts between two plans, whoever solves them: the plan in force while it is young enough,
+/// and else an LQR that holds the robot where the last good plan left it; the state of the shaping
 /// filter, driven by what is commanded.
 class MpcExecution {
  public:
@@ -19,8 +19,8 @@ class MpcExecution {
   /// Plans the LQR beside the MPC. As long as plans are good its set-point follows the robot; then
   /// it stays, so that the LQR holds the place.
   /// @return what the LQR would do now, from which a solve may start
-  PolicySample planStandIn(const MpcPolicy& active, bool refused, SimTime now,
-                           const StateVector& x, const JointVector& joint_angle) noexcept;
+  PolicySample planStandIn(const MpcPolicy& active, bool refused, SimTime now, const StateVector& x,
+                           const JointVector& joint_angle) noexcept;
   void activateStandIn() noexcept { lqr_.activatePlan(); }
 
   void sample(const MpcPolicy& active, SimTime now, PolicySample& out) const noexcept;

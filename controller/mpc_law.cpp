@@ -21,7 +21,8 @@ MpcLaw::MpcLaw(const RobotParameters& robot, const MpcConfig& config)
 
 PlanReport MpcLaw::plan(SimTime now, const StateVector& x,
                         const JointVector& joint_angle) noexcept {
-  const PolicySample stand_in = execution_.planStandIn(active_, failed_plans_ > 0, now, x, joint_angle);
+  const PolicySample stand_in =
+      execution_.planStandIn(active_, failed_plans_ > 0, now, x, joint_angle);
   PlanReport report =
       planner_.plan(now, x, execution_.filterState(), joint_angle, stand_in, planned_, scratch_);
   if (report.accepted) {

@@ -132,10 +132,11 @@ MpcConfig MpcConfig::read(ConfigReader& in, const RobotParameters& robot) {
         fmt::format("{} is true, needs contact_forces: true beside it", in.at("contact_moments")));
   }
   if (c.engine == MpcConfig::Engine::kContinuous && !c.schedule->added.empty()) {
-    throw InputError(fmt::format(
-        "{} is continuous, which knows no tasks on frames and none that were added: leave them out, "
-        "or set engine: discrete",
-        in.at("engine")));
+    throw InputError(
+        fmt::format("{} is continuous, which knows no tasks on frames and none that were added: "
+                    "leave them out, "
+                    "or set engine: discrete",
+                    in.at("engine")));
   }
   if (toSeconds(c.fallback_after) > c.horizon.length) {
     throw InputError(fmt::format(
@@ -223,8 +224,9 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
   if (!fresh) seedFrom(stand_in, now, x[kYaw]);
   MpcState x0;
   x0 << x, xf;
-  const MpcSolveReport slq = engine_->solve(now, x0, fresh ? previous : seed_,
-                                       fresh ? config_.iterations : config_.first_iterations, out);
+  const MpcSolveReport slq =
+      engine_->solve(now, x0, fresh ? previous : seed_,
+                     fresh ? config_.iterations : config_.first_iterations, out);
   if (slq.ok()) out.integrateJoints(dynamics_, joint_angle);
 
   report.accepted = slq.ok();

@@ -20,7 +20,8 @@ class MpcPolicy {
   struct Knot {
     double time;  ///< since stamp [s]
     MpcState x;
-    JointVector joint_position;  ///< wheels: integrated along the plan from the measured angle [rad]
+    JointVector
+        joint_position;  ///< wheels: integrated along the plan from the measured angle [rad]
     JointVector joint_velocity;  ///< [rad/s]
 
     template <typename Self, typename Visitor>

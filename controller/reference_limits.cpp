@@ -27,9 +27,10 @@ void requireArm(const TaskSchedule& schedule, const Constraints& c, const RobotP
     const Vector3 arm = schedule.arm_position.value(t);
     for (int i = 0; i < kArmJointCount; ++i) {
       if (arm[i] >= c.arm_lower[i] && arm[i] <= c.arm_upper[i]) continue;
-      throw InputError(fmt::format("{} for {:.4g} rad of joint {} ('{}'), must be between {} and {}",
-                                   asksAt(tasks, "arm_position", t), arm[i], i + 1,
-                                   robot.arm[i].name, c.arm_lower[i], c.arm_upper[i]));
+      throw InputError(
+          fmt::format("{} for {:.4g} rad of joint {} ('{}'), must be between {} and {}",
+                      asksAt(tasks, "arm_position", t), arm[i], i + 1, robot.arm[i].name,
+                      c.arm_lower[i], c.arm_upper[i]));
     }
     requireStaticTorque(robot, arm, c.torque_limit,
                         fmt::format("{} at {:g} s", tasks.at("arm_position"), t));
@@ -40,9 +41,10 @@ void requirePush(const TaskSchedule& schedule, const Constraints& c, const Confi
   for (const double t : schedule.contact_force.turningTimes()) {
     const Vector3 force = schedule.contact_force.value(t);
     if (force.z() < 0) {
-      throw InputError(fmt::format("{} for {:.4g} N along the normal, must be at least 0: the "
-                                   "end-effector can push, it cannot pull",
-                                   asksAt(tasks, "contact_force", t), force.z()));
+      throw InputError(
+          fmt::format("{} for {:.4g} N along the normal, must be at least 0: the "
+                      "end-effector can push, it cannot pull",
+                      asksAt(tasks, "contact_force", t), force.z()));
     }
     const double across = force.head<2>().norm(), most = c.friction * force.z();
     if (across > most) {
@@ -62,7 +64,8 @@ void requireStaticTorque(const RobotParameters& robot, const Vector3& arm,
   for (int j = 0; j < kJointCount; ++j) {
     if (std::abs(tau[j]) < torque_limit[j]) continue;
     throw InputError(fmt::format(
-        "{}: to stand still with the arm at ({:.4g}, {:.4g}, {:.4g}) rad {} needs {:.4g} N m, must be "
+        "{}: to stand still with the arm at ({:.4g}, {:.4g}, {:.4g}) rad {} needs {:.4g} N m, must "
+        "be "
         "less than its torque limit of {:g} N m",
         where, arm[0], arm[1], arm[2], jointName(robot, j), std::abs(tau[j]), torque_limit[j]));
   }

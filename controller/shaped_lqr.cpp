@@ -57,9 +57,10 @@ StateJacobian stateWeightOfTasks(const RobotParameters& robot, const Constraints
   constexpr int kStride = roundUpTo4(kStateDim + 1);
   alignas(32) double expansion[kStride * kStride] = {};  // [Q q; q^T *], lower triangle
   CostTerms terms;
-  WholeBodyCost(robot, constraints).expandState(x, tasks, 1, terms, {expansion, kStride, kStateDim});
-  const StateJacobian lower =
-      Eigen::Map<const Eigen::Matrix<double, kStride, kStride>>(expansion).topLeftCorner<kStateDim, kStateDim>();
+  WholeBodyCost(robot, constraints)
+      .expandState(x, tasks, 1, terms, {expansion, kStride, kStateDim});
+  const StateJacobian lower = Eigen::Map<const Eigen::Matrix<double, kStride, kStride>>(expansion)
+                                  .topLeftCorner<kStateDim, kStateDim>();
   return lower.selfadjointView<Eigen::Lower>();
 }
 

@@ -101,10 +101,10 @@ void TaskSchedule::describeAdded(ConfigVisitor& v) {
     throw InputError(fmt::format("controller.mpc.tasks: two tasks are called '{}'", task->name()));
   }
   if (added.size() > kMaxAddedTasks) {
-    throw InputError(fmt::format(
-        "controller.mpc.tasks: {} tasks on frames or added, at most {} are possible "
-        "(position and orientation count apart)",
-        added.size(), kMaxAddedTasks));
+    throw InputError(
+        fmt::format("controller.mpc.tasks: {} tasks on frames or added, at most {} are possible "
+                    "(position and orientation count apart)",
+                    added.size(), kMaxAddedTasks));
   }
 }
 

@@ -94,7 +94,7 @@ class TaskSchedule {
 #undef BALLBOT_LED
 #undef BALLBOT_HELD
 
-  TimeSignal<1> contact_turn;    ///< of the contact frame about the vertical [rad]
+  TimeSignal<1> contact_turn;  ///< of the contact frame about the vertical [rad]
 
   AddedTasks added;  ///< at most kMaxAddedTasks
 

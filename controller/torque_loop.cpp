@@ -24,7 +24,8 @@ constexpr int kPerDecade = 200;
 /// docs/theory/actuator.md, eq. 1, 2, 5, friction linear.
 void addDrives(const LoopDrives& drives, const SelectionMatrix& S, Eigen::MatrixXd& A,
                Eigen::MatrixXd& B) {
-  constexpr int kX = kStateDim, kDeflection = kX, kRate = kX + kJointCount, kMotor = kRate + kJointCount;
+  constexpr int kX = kStateDim, kDeflection = kX, kRate = kX + kJointCount,
+                kMotor = kRate + kJointCount;
   Eigen::MatrixXd rates = Eigen::MatrixXd::Zero(kMotor + kJointCount, kMotor + kJointCount);
   Eigen::MatrixXd inputs = Eigen::MatrixXd::Zero(rates.rows(), kJointCount);
   rates.topLeftCorner(kX, kX) = A;
@@ -53,7 +54,8 @@ void addDrives(const LoopDrives& drives, const SelectionMatrix& S, Eigen::Matrix
   B = inputs;
 }
 
-// Of any size on purpose: the eigenvalue solver for each fixed size costs the compiler half a minute.
+// Of any size on purpose: the eigenvalue solver for each fixed size costs the compiler half a
+// minute.
 Eigen::VectorXcd lociOf(const Eigen::MatrixXcd& L) { return L.eigenvalues(); }
 
 /// Gain of the largest locus (eigenvalue) of a loop.
@@ -77,7 +79,8 @@ Eigen::VectorXd locusGains(const Eigen::MatrixXcd& L) {
   return gains;
 }
 
-/// Smallest delay of all its channels that turns a locus of `loop`, a function of omega, onto -1 [s].
+/// Smallest delay of all its channels that turns a locus of `loop`, a function of omega, onto -1
+/// [s].
 template <typename Loop>
 double smallestCriticalDelay(const Loop& loop, const std::vector<double>& omega) {
   double smallest = kInf;
@@ -121,7 +124,8 @@ WheelLoci inOrderOf(const WheelLoci& before, const WheelLoci& loci) {
   return out;
 }
 
-/// Where a locus crosses the negative real axis at -a, the gain 1 / a brings a pole to the imaginary axis.
+/// Where a locus crosses the negative real axis at -a, the gain 1 / a brings a pole to the
+/// imaginary axis.
 void findGainMargins(const TorqueLoop& loop, const std::vector<double>& omega, LoopMargins& out) {
   out.wheel_gain_low = 0;
   out.wheel_gain_high = kInf;
@@ -154,20 +158,23 @@ TorqueLoop::TorqueLoop(const ShapedLqr& law, const ReducedDynamics& dynamics,
 TorqueLoop::Joints TorqueLoop::joints(double omega) const {
   const Complex s(0, omega);
   const auto n = A_.rows();
-  const Eigen::MatrixXcd resolvent_B =
-      (s * Eigen::MatrixXcd::Identity(n, n) - A_.cast<Complex>()).partialPivLu().solve(B_.cast<Complex>());
+  const Eigen::MatrixXcd resolvent_B = (s * Eigen::MatrixXcd::Identity(n, n) - A_.cast<Complex>())
+                                           .partialPivLu()
+                                           .solve(B_.cast<Complex>());
   // The law: u = -K_x x - K_f x_f, x_f = pole / (s + pole) u_wheels.
   Joints filtered = Joints::Identity();
-  filtered.leftCols<kFilterDim>() +=
-      law_.K.rightCols<kFilterDim>().cast<Complex>() * (law_.shaping.pole / (s + law_.shaping.pole));
-  const Joints feedback = law_.K.leftCols<kStateDim>().cast<Complex>() * resolvent_B.topRows<kStateDim>();
+  filtered.leftCols<kFilterDim>() += law_.K.rightCols<kFilterDim>().cast<Complex>() *
+                                     (law_.shaping.pole / (s + law_.shaping.pole));
+  const Joints feedback =
+      law_.K.leftCols<kStateDim>().cast<Complex>() * resolvent_B.topRows<kStateDim>();
   return std::exp(-s * delay_) * filtered.partialPivLu().solve(feedback);
 }
 
 TorqueLoop::Wheels TorqueLoop::wheels(double omega) const {
   // The wheels' block of the sensitivity is that of the loop with the arm closed.
   const Joints sensitivity = (Joints::Identity() + joints(omega)).inverse();
-  return Wheels(sensitivity.topLeftCorner<kWheelCount, kWheelCount>()).inverse() - Wheels::Identity();
+  return Wheels(sensitivity.topLeftCorner<kWheelCount, kWheelCount>()).inverse() -
+         Wheels::Identity();
 }
 
 double TorqueLoop::slowestPoleWithoutDelay() const {
@@ -204,7 +211,8 @@ LoopMargins marginsOf(const ShapedLqr& law, const ReducedDynamics& dynamics,
   for (const double w : omega) {
     const TorqueLoop::Wheels L = loop.wheels(w);
     if (largestGain(L) > 1) last_above = w;
-    const double distance = (TorqueLoop::Wheels::Identity() + L).jacobiSvd().singularValues()[kWheelCount - 1];
+    const double distance =
+        (TorqueLoop::Wheels::Identity() + L).jacobiSvd().singularValues()[kWheelCount - 1];
     if (distance < out.distance) {
       out.distance = distance;
       out.distance_at = w;
@@ -212,7 +220,8 @@ LoopMargins marginsOf(const ShapedLqr& law, const ReducedDynamics& dynamics,
   }
   const auto next = std::upper_bound(omega.begin(), omega.end(), last_above);
   if (last_above > 0 && next != omega.end()) {
-    out.crossover = bisect(last_above, *next, [&](double w) { return largestGain(loop.wheels(w)) > 1; });
+    out.crossover =
+        bisect(last_above, *next, [&](double w) { return largestGain(loop.wheels(w)) > 1; });
   }
   const bool stable_at_once = prompt.slowestPoleWithoutDelay() < 0;
   const double critical =

@@ -12,7 +12,8 @@ namespace ballbot {
 /// What stands between the torque a controller asks for and the joint.
 struct LoopDrives {
   RobotActuators actuators;  ///< friction: its viscous part
-  double drive_period = 0;   ///< tick of the torque loops, adds half of it to the current loop's lag [s]
+  double drive_period =
+      0;  ///< tick of the torque loops, adds half of it to the current loop's lag [s]
 };
 
 /// The control loop about an equilibrium, opened at the torques: linear dynamics, drives, delay,
@@ -46,11 +47,11 @@ std::vector<double> loopFrequencies();
 
 struct LoopMargins {
   bool stable = false;
-  double crossover = 0;      ///< highest frequency at which a wheel loop's gain is 1 [rad/s]
-  double distance = 0;       ///< smallest singular value of 1 + L at the wheels, over frequency
-  double distance_at = 0;    ///< where [rad/s]
-  double delay_margin = 0;   ///< delay of all six torques beyond the loop's own that makes it unstable
-                             ///< [s]; negative if it is; infinite if none does
+  double crossover = 0;     ///< highest frequency at which a wheel loop's gain is 1 [rad/s]
+  double distance = 0;      ///< smallest singular value of 1 + L at the wheels, over frequency
+  double distance_at = 0;   ///< where [rad/s]
+  double delay_margin = 0;  ///< delay of all six torques beyond the loop's own that makes it
+                            ///< unstable [s]; negative if it is; infinite if none does
 
   // At the wheel torques alone, the arm's loops closed; only of a stable loop.
   double wheel_delay_margin = 0;  ///< the same for delay there [s]

@@ -198,7 +198,7 @@ void WholeBodyCost::wheelRateLimitCost(const StateVector& x, double share, CostT
   const double cy = std::cos(x[kPitch]), sy = std::sin(x[kPitch]);
   const double cx = std::cos(x[kRoll]), sx = std::sin(x[kRoll]);
   Matrix3 R_BW;
-  R_BW << cz * cy, sz * cy, -sy,  //
+  R_BW << cz * cy, sz * cy, -sy,                                //
       cz * sy * sx - sz * cx, sz * sy * sx + cz * cx, cy * sx,  //
       cz * sy * cx + sz * sx, sz * sy * cx - cz * sx, cy * cx;
   constexpr int kNu = kPositionDim;
@@ -227,7 +227,7 @@ void WholeBodyCost::wheelRateLimitCost(const StateVector& x, double share, CostT
     J.col(4) = -R_BW.col(0) / ball_radius_;
     J.rightCols<3>() = -Matrix3::Identity();
     J = -scaled * J;
-    constexpr int kIndex[8] = {kYaw,          kPitch,         kRoll,         kNu + kBallVx,
+    constexpr int kIndex[8] = {kYaw,          kPitch,        kRoll,         kNu + kBallVx,
                                kNu + kBallVy, kNu + kOmegaX, kNu + kOmegaY, kNu + kOmegaZ};
     const Eigen::Matrix<double, 3, 8> weighted = (share * second).asDiagonal() * J;
     for (int c = 0; c < 8; ++c) {
@@ -334,8 +334,7 @@ void WholeBodyCost::forceCost(const Vector3& lambda_C, const Tasks& tasks, doubl
     return;
   }
   const Vector3 error = lambda_C - tasks.contact_force_C;
-  terms.value[kContactForceCost] +=
-      0.5 * share * tasks.contact_force_weight.dot(error.cwiseAbs2());
+  terms.value[kContactForceCost] += 0.5 * share * tasks.contact_force_weight.dot(error.cwiseAbs2());
   const double epsilon = constraints_.cone_epsilon, lx = lambda_C.x(), ly = lambda_C.y();
   const double n = std::sqrt(lx * lx + ly * ly + epsilon * epsilon);
   BarrierSum cone(constraints_.cone);
@@ -352,8 +351,8 @@ void WholeBodyCost::forceCost(const Vector3& lambda_C, const Tasks& tasks, doubl
     const double slope = std::min(0.0, d.first);
     out->gradient.segment<3>(kJointCount) =
         share * (tasks.contact_force_weight.cwiseProduct(error) + d.first * h_gradient);
-    out->force_hessian = share * (d.second * h_gradient * h_gradient.transpose() +
-                                  slope * h_hessian);
+    out->force_hessian =
+        share * (d.second * h_gradient * h_gradient.transpose() + slope * h_hessian);
     out->force_hessian.diagonal() += share * tasks.contact_force_weight;
     out->diagonal.segment<3>(kJointCount) = out->force_hessian.diagonal();
   }

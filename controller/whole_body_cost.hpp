@@ -13,9 +13,9 @@ namespace ballbot {
 /// Where a cost adds its second-order expansion in the robot's state: lower triangle and gradient
 /// inside a column-major augmented matrix [H g; g^T *] of an LqStage or a ValueFunction.
 struct StateExpansion {
-  double* W;        ///< aligned to 32 bytes
-  int stride;       ///< between columns, a multiple of 4
-  int gradient_row; ///< row of g^T
+  double* W;         ///< aligned to 32 bytes
+  int stride;        ///< between columns, a multiple of 4
+  int gradient_row;  ///< row of g^T
 
   double& H(int row, int column) { return W[column * stride + row]; }
   double& g(int i) { return W[i * stride + gradient_row]; }
@@ -94,7 +94,7 @@ class WholeBodyCost {
                  InputExpansion* out) const;
 
   ReducedDynamics dynamics_;
-  Matrix3 axles_;          ///< rows d_i
+  Matrix3 axles_;               ///< rows d_i
   double ball_radius_, ratio_;  ///< r [m], r / r_w
   Constraints constraints_;
   TerminalCost terminal_;

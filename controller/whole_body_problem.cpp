@@ -79,11 +79,9 @@ void WholeBodyProblem<NU>::step(int k, const X& x, const U& u, X& next) const no
                    .derivative(mid, u.template head<kJointCount>(), wrench.force,
                                NU > kJointCount + 3 ? &wrench.moment : nullptr)
                    .template tail<kV>();
-  next.template head<kQ>() =
-      q + 0.5 * H * EulerRates(mid.template head<kQ>()).rate(nu + nu_next);
+  next.template head<kQ>() = q + 0.5 * H * EulerRates(mid.template head<kQ>()).rate(nu + nu_next);
   next.template segment<kV>(kQ) = nu_next;
-  for (int i = 0; i < kFilterDim; ++i)
-    next[kStateDim + i] = steps_[k].next(x[kStateDim + i], u[i]);
+  for (int i = 0; i < kFilterDim; ++i) next[kStateDim + i] = steps_[k].next(x[kStateDim + i], u[i]);
 }
 
 template <int NU>
@@ -127,8 +125,8 @@ void WholeBodyProblem<NU>::linearizeStage(int k, const X& x, const PositionVecto
   const Block8 a_q = H * model.df_dx.template bottomLeftCorner<kV, kQ>();
   Block8 nu_q = a_q;
   nu_q.middleCols<2>(kPitch).noalias() += 0.5 * H * a_q.middleCols<3>(kYaw) * G_start;
-  Block8 nu_nu = H * model.df_dx.template bottomRightCorner<kV, kV>() +
-                 0.5 * H * timesT(a_q, at_start);
+  Block8 nu_nu =
+      H * model.df_dx.template bottomRightCorner<kV, kV>() + 0.5 * H * timesT(a_q, at_start);
   nu_nu.diagonal().array() += 1;
   // q+ = q + H/2 T(q_mid) (nu + nu+)
   const auto G_mid = at_mid.derivative(nu_sum);
@@ -218,8 +216,7 @@ void WholeBodyProblem<NU>::addFinalCost(const X& x, CostTerms& terms) const noex
 template <int NU>
 void WholeBodyProblem<NU>::approximateFinalCost(const X& x, CostTerms& terms,
                                                 ValueFunction<kMpcStateDim>& value) const noexcept {
-  cost_.expandFinal(x.template head<kStateDim>(), tasks_.back(), state_share_.back(), terms,
-                    value);
+  cost_.expandFinal(x.template head<kStateDim>(), tasks_.back(), state_share_.back(), terms, value);
 }
 
 template class WholeBodyProblem<6>;

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "controller/whole_body_cost.hpp"
 #include "solver/frequency_shaping.hpp"
 #include "solver/optimal_control_problem.hpp"
-#include "controller/whole_body_cost.hpp"
 
 namespace ballbot {
 
@@ -31,8 +31,7 @@ class WholeBodyProblem final : public OptimalControlProblem<kMpcStateDim, NU, Co
                    const std::vector<double>& knots);
 
   /// Tasks for a horizon that starts at t0 [s]. Free of allocation.
-  void setTasks(const TaskSchedule& schedule, double t0,
-                const ContactSituation& contact = {},
+  void setTasks(const TaskSchedule& schedule, double t0, const ContactSituation& contact = {},
                 const GovernedCommands& commands = {}) noexcept;
   /// For tests and special uses: the tasks of one knot.
   Tasks& tasks(int k) { return tasks_[k]; }
@@ -59,9 +58,9 @@ class WholeBodyProblem final : public OptimalControlProblem<kMpcStateDim, NU, Co
 
   ReducedDynamics dynamics_;
   WholeBodyCost cost_;
-  std::vector<FilterStep> steps_;   ///< one per stage; H is the stage's length
-  std::vector<double> state_share_; ///< trapezoidal weight of each knot's state cost [s]
-  std::vector<Tasks> tasks_;        ///< one per knot
+  std::vector<FilterStep> steps_;    ///< one per stage; H is the stage's length
+  std::vector<double> state_share_;  ///< trapezoidal weight of each knot's state cost [s]
+  std::vector<Tasks> tasks_;         ///< one per knot
 };
 
 }  // namespace ballbot

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/yaml_text.hpp"
 #include "core/number_text.hpp"
+#include "core/yaml_text.hpp"
 
 namespace ballbot {
 
@@ -43,10 +43,14 @@ ConfigNode ConfigNode::list(SourceLocation where) {
 
 const char* ConfigNode::kindName() const {
   switch (kind_) {
-    case Kind::kNull: return "nothing";
-    case Kind::kScalar: return "a value";
-    case Kind::kMap: return "a mapping";
-    case Kind::kList: return "a list";
+    case Kind::kNull:
+      return "nothing";
+    case Kind::kScalar:
+      return "a value";
+    case Kind::kMap:
+      return "a mapping";
+    case Kind::kList:
+      return "a list";
   }
   return "?";
 }
@@ -135,7 +139,9 @@ namespace {
 void emit(const ConfigNode& node, int indent, std::string& out) {
   const std::string pad(static_cast<std::size_t>(indent), ' ');
   switch (node.kind()) {
-    case ConfigNode::Kind::kNull: out += "null\n"; return;
+    case ConfigNode::Kind::kNull:
+      out += "null\n";
+      return;
     case ConfigNode::Kind::kScalar:
       out += yamlText(node) + "\n";
       return;
@@ -155,9 +161,9 @@ void emit(const ConfigNode& node, int indent, std::string& out) {
         out += "[]\n";
         return;
       }
-      const bool flat = std::all_of(node.items().begin(), node.items().end(), [](const ConfigNode& n) {
-        return n.kind() == ConfigNode::Kind::kScalar;
-      });
+      const bool flat =
+          std::all_of(node.items().begin(), node.items().end(),
+                      [](const ConfigNode& n) { return n.kind() == ConfigNode::Kind::kScalar; });
       if (flat) {
         out += "[";
         for (std::size_t i = 0; i < node.items().size(); ++i) {

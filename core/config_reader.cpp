@@ -39,8 +39,8 @@ std::string describe(Range r) {
 double checkedNumber(const ConfigNode& node, const std::string& name, Range range) {
   const std::optional<double> number = numberOf(node);
   if (!number) {
-    throw InputError(fmt::format("{}: {} is {}, must be a number", toText(node.where()), name,
-                                 describe(node)));
+    throw InputError(
+        fmt::format("{}: {} is {}, must be a number", toText(node.where()), name, describe(node)));
   }
   const double value = *number;
   if (std::isnan(value)) {
@@ -50,8 +50,8 @@ double checkedNumber(const ConfigNode& node, const std::string& name, Range rang
     const std::string expected = std::isinf(value) && range.low == -kInf && range.high == kInf
                                      ? "be finite"
                                      : describe(range);
-    throw InputError(fmt::format("{}: {} is {}, must {}", toText(node.where()), name, node.text(),
-                                 expected));
+    throw InputError(
+        fmt::format("{}: {} is {}, must {}", toText(node.where()), name, node.text(), expected));
   }
   return value;
 }
@@ -128,8 +128,8 @@ bool ConfigReader::booleanOr(const std::string& key, bool fallback) {
 std::string ConfigReader::text(const std::string& key) {
   const ConfigNode& node = require(key);
   if (node.kind() != ConfigNode::Kind::kScalar) {
-    throw InputError(fmt::format("{}: {} must be text, not {}", toText(node.where()), key,
-                                 describe(node)));
+    throw InputError(
+        fmt::format("{}: {} must be text, not {}", toText(node.where()), key, describe(node)));
   }
   return node.text();
 }
@@ -144,8 +144,8 @@ void ConfigReader::numbers(const std::string& key, double* out, std::size_t coun
     const std::string got = node.kind() == ConfigNode::Kind::kList
                                 ? fmt::format("{} values", node.items().size())
                                 : describe(node);
-    throw InputError(fmt::format("{}: {} has {}, must be a list of {} numbers", toText(node.where()),
-                                 key, got, count));
+    throw InputError(fmt::format("{}: {} has {}, must be a list of {} numbers",
+                                 toText(node.where()), key, got, count));
   }
   for (std::size_t i = 0; i < count; ++i) {
     out[i] = checkedNumber(node.items()[i], fmt::format("{}[{}]", key, i), range);
@@ -157,8 +157,8 @@ std::size_t ConfigReader::chooseIndex(const std::string& key,
   const std::string value = text(key);
   const auto it = std::find(names.begin(), names.end(), value);
   if (it == names.end()) {
-    throw InputError(fmt::format("{}: {} is '{}', must be one of: {}",
-                                 toText(require(key).where()), key, value, fmt::join(names, ", ")));
+    throw InputError(fmt::format("{}: {} is '{}', must be one of: {}", toText(require(key).where()),
+                                 key, value, fmt::join(names, ", ")));
   }
   return static_cast<std::size_t>(it - names.begin());
 }
@@ -198,11 +198,12 @@ std::vector<ConfigReader> ConfigReader::list(const std::string& key) {
   if (!has(key)) return out;
   const ConfigNode& node = require(key);
   if (node.kind() != ConfigNode::Kind::kList) {
-    throw InputError(fmt::format("{}: {} must be a list, not {}", toText(node.where()), key,
-                                 describe(node)));
+    throw InputError(
+        fmt::format("{}: {} must be a list, not {}", toText(node.where()), key, describe(node)));
   }
   for (std::size_t i = 0; i < node.items().size(); ++i) {
-    out.emplace_back(node.items()[i], fmt::format("{}{}.{}", path_.empty() ? "" : path_ + ".", key, i));
+    out.emplace_back(node.items()[i],
+                     fmt::format("{}{}.{}", path_.empty() ? "" : path_ + ".", key, i));
   }
   return out;
 }
@@ -216,11 +217,11 @@ void ConfigReader::finish() const {
   for (const auto& [key, value] : node_->entries()) {
     if (known_.count(key)) continue;
     const std::string guess = nearestWord(key, known_);
-    throw InputError(fmt::format(
-        "{}: unknown key '{}'{}{}", toText(value.where()), key,
-        path_.empty() ? "" : fmt::format(" in '{}'", path_),
-        guess.empty() ? fmt::format("; known are: {}", fmt::join(known_, ", "))
-                      : fmt::format("; did you mean '{}'?", guess)));
+    throw InputError(fmt::format("{}: unknown key '{}'{}{}", toText(value.where()), key,
+                                 path_.empty() ? "" : fmt::format(" in '{}'", path_),
+                                 guess.empty()
+                                     ? fmt::format("; known are: {}", fmt::join(known_, ", "))
+                                     : fmt::format("; did you mean '{}'?", guess)));
   }
 }
 

@@ -63,8 +63,7 @@ class ConfigReader {
 
   /// One of the named choices; the error lists them.
   template <typename Enum>
-  Enum choice(const std::string& key,
-              std::initializer_list<std::pair<const char*, Enum>> choices) {
+  Enum choice(const std::string& key, std::initializer_list<std::pair<const char*, Enum>> choices) {
     std::vector<std::string> names;
     for (const auto& c : choices) names.emplace_back(c.first);
     return (choices.begin() + chooseIndex(key, names))->second;

@@ -22,7 +22,8 @@ std::array<double, 4> RandomStream::uniforms(std::uint64_t index,
   return out;
 }
 
-std::array<double, 4> RandomStream::normals(std::uint64_t index, std::uint64_t block) const noexcept {
+std::array<double, 4> RandomStream::normals(std::uint64_t index,
+                                            std::uint64_t block) const noexcept {
   const std::array<double, 4> u = uniforms(index, block);
   std::array<double, 4> out;
   for (std::size_t i = 0; i < 4; i += 2) {  // Box and Muller

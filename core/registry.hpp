@@ -23,7 +23,8 @@ class Registry {
   /// @throw std::invalid_argument if the name is taken.
   void add(Kind kind) {
     for (const Kind& other : kinds_) {
-      if (other.name == kind.name) throw std::invalid_argument("there is a '" + kind.name + "' already");
+      if (other.name == kind.name)
+        throw std::invalid_argument("there is a '" + kind.name + "' already");
     }
     kinds_.push_back(std::move(kind));
   }
@@ -33,7 +34,8 @@ class Registry {
   const Kind& choose(ConfigVisitor& v, const ConfigKey& key, const std::string& usual) const {
     std::vector<std::string> names;
     for (const Kind& kind : kinds_) names.push_back(kind.name);
-    std::size_t index = static_cast<std::size_t>(std::find(names.begin(), names.end(), usual) - names.begin());
+    std::size_t index =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), usual) - names.begin());
     v.chooseIndex(key, index, names);
     return kinds_.at(index);
   }

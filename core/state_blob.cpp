@@ -54,7 +54,8 @@ BlobReader::BlobReader(const StateBlob& blob, const std::string& kind, std::uint
   }
   std::memcpy(&header, blob.data(), sizeof header);
   if (header.magic != kMagic || header.kind != kindHash(kind)) {
-    throw InputError(fmt::format("saved {} state: these bytes are not a saved {} state", kind, kind));
+    throw InputError(
+        fmt::format("saved {} state: these bytes are not a saved {} state", kind, kind));
   }
   if (header.version != version) {
     throw InputError(fmt::format("saved {} state: layout version {}, this program reads version {}",
@@ -87,7 +88,8 @@ void BlobReader::getDoubles(double* values, std::size_t count) {
 std::vector<double> BlobReader::getVector() {
   const auto count = get<std::uint64_t>();
   if (count > (body_.size() - position_) / sizeof(double)) {
-    throw InputError(fmt::format("saved {} state: a list of {} numbers does not fit", kind_, count));
+    throw InputError(
+        fmt::format("saved {} state: a list of {} numbers does not fit", kind_, count));
   }
   std::vector<double> values(count);
   getDoubles(values.data(), values.size());
@@ -102,8 +104,8 @@ StateBlob BlobReader::getBlob() {
 
 void BlobReader::finish() const {
   if (position_ != body_.size()) {
-    throw InputError(fmt::format("saved {} state: {} bytes are left over", kind_,
-                                 body_.size() - position_));
+    throw InputError(
+        fmt::format("saved {} state: {} bytes are left over", kind_, body_.size() - position_));
   }
 }
 

@@ -50,7 +50,8 @@ class TreeBuilder final : public YAML::EventHandler {
     checkPlain(mark, anchor, tag);
     if (atKey()) {
       // In quotes it is a word like any other.
-      if (value == "<<" && tag != "!") refuse(mark, "a merge key ('<<') is not read; write include: FILE");
+      if (value == "<<" && tag != "!")
+        refuse(mark, "a merge key ('<<') is not read; write include: FILE");
       takeKey(mark, value);
     } else {
       // yaml-cpp gives the tag "!" to quoted scalars and "?" to plain ones.
@@ -184,7 +185,8 @@ ConfigNode expandIncludes(const ConfigNode& node, const std::filesystem::path& f
 ConfigNode load(const std::string& path, std::vector<std::string>& open_files) {
   const std::string id = std::filesystem::weakly_canonical(path).string();
   if (std::find(open_files.begin(), open_files.end(), id) != open_files.end()) {
-    throw InputError(fmt::format("{}: includes itself, by way of {} file(s)", path, open_files.size()));
+    throw InputError(
+        fmt::format("{}: includes itself, by way of {} file(s)", path, open_files.size()));
   }
   std::ifstream in(path);
   if (!in) {
@@ -219,8 +221,8 @@ ConfigNode parseYaml(const std::string& text, const std::string& source) {
 std::pair<std::string, ConfigNode> readOverride(const std::string& path_equals_value) {
   const auto equals = path_equals_value.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw InputError(fmt::format("--set {}: write path=value, e.g. --set duration_s=5",
-                                 path_equals_value));
+    throw InputError(
+        fmt::format("--set {}: write path=value, e.g. --set duration_s=5", path_equals_value));
   }
   const std::string source = "--set " + path_equals_value;
   const std::string path = path_equals_value.substr(0, equals);

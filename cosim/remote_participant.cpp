@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "model/signal_check.hpp"
 #include "cosim/session_id.hpp"
 #include "messages/convert.hpp"
+#include "model/signal_check.hpp"
 
 namespace ballbot {
 namespace {
@@ -219,11 +219,10 @@ void RemoteParticipant::throwUnbelievable(const std::string& what) const {
 void RemoteParticipant::throwUnlessOk() const {
   const Reply& reply = client_->reply();
   if (reply.status == Reply::OK) return;
-  const std::string text =
-      reply.text.empty()
-          ? fmt::format("{} refused request {} and did not say why", options_.name,
-                        client_->sequence())
-          : reply.text;
+  const std::string text = reply.text.empty()
+                               ? fmt::format("{} refused request {} and did not say why",
+                                             options_.name, client_->sequence())
+                               : reply.text;
   if (reply.status == Reply::REFUSED) {
     client_.reset();  // there is no session to abort
     throw InputError(text);
@@ -250,7 +249,7 @@ void RemoteParticipant::throwLost(WallDuration waited, int tries) const {
   if (!client_->busyText().empty()) hint = " The last it said: " + client_->busyText() + ".";
   if (client_->ignored().foreign > 0) {
     hint += fmt::format(" {} messages of another run came instead: is the channel in use twice?",
-                       client_->ignored().foreign);
+                        client_->ignored().foreign);
   }
   throw LostParticipantError(
       options_.name,

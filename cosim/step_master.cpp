@@ -77,9 +77,14 @@ void StepMaster::processEvent() {
         fmt::format("{}: command at {}: {}", controller_.name(), toText(time_), bad));
   }
   const std::optional<TruthFrame> truth = participant_->truth();
-  const Tick tick{tick_, time_,    participant_->sensors(),
-                  truth, control_, participant_->stateDigest(),
-                  &added, &controller_.addedToPlan()};
+  const Tick tick{tick_,
+                  time_,
+                  participant_->sensors(),
+                  truth,
+                  control_,
+                  participant_->stateDigest(),
+                  &added,
+                  &controller_.addedToPlan()};
   if (recorder_ != nullptr) recorder_->record(tick);
   if (observer_ && !observer_(tick)) {
     ended_ = End::kObserver;

@@ -17,7 +17,7 @@ struct Tick {
   const SensorFrame& sensors;
   const std::optional<TruthFrame>& truth;
   const ControlOutput& control;
-  std::uint64_t state_digest;  ///< of the participant's complete state
+  std::uint64_t state_digest;                   ///< of the participant's complete state
   const AddedSignals* added_sensors = nullptr;  ///< null or empty: none
   const AddedSignals* added_to_plan = nullptr;  ///< likewise
 };

@@ -13,8 +13,9 @@ namespace ballbot {
 
 /// The estimator of the robot: a two-state implicit filter on the intervals between inertial
 /// samples. Here live time and what can go wrong with it: samples that are late, missing or
-/// spoiled, frames from another time, encoders at another rate. The equations are in residuals.hpp, the algebra in
-/// information_update.hpp, the judgement in outlier_gate.hpp, poses from outside in pose_aiding.hpp.
+/// spoiled, frames from another time, encoders at another rate. The equations are in residuals.hpp,
+/// the algebra in information_update.hpp, the judgement in outlier_gate.hpp, poses from outside in
+/// pose_aiding.hpp.
 ///
 /// While held (`at_rest`) tilt and gyroscope bias are aligned, and px = py = yaw = 0 unless poses
 /// from outside say where the robot stands; with the release the filter starts, and rest has no

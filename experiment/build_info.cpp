@@ -1,7 +1,6 @@
 #include "experiment/build_info.hpp"
 
 #include <Eigen/Core>
-
 #include <fmt/format.h>
 
 #include "source_revision.inc"
@@ -16,7 +15,8 @@ std::vector<std::pair<std::string, std::string>> buildInfo() {
           {"simbody", BALLBOT_SIMBODY},
           {"sundials", BALLBOT_SUNDIALS_VERSION},
           {"lcm", BALLBOT_LCM_VERSION},
-          {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+          {"eigen",
+           fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
 }
 
 }  // namespace ballbot

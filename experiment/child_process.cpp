@@ -1,17 +1,16 @@
 #include "experiment/child_process.hpp"
 
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sched.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-
-#include <fmt/format.h>
 
 #include "core/error.hpp"
 
@@ -37,7 +36,8 @@ ChildProcess::ChildProcess(std::string name, const std::vector<std::string>& arg
   const pid_t parent = ::getpid();
   pid_ = ::fork();
   if (pid_ < 0) {
-    throw LostParticipantError(name_, fmt::format("{}: cannot start: {}", name_, std::strerror(errno)));
+    throw LostParticipantError(name_,
+                               fmt::format("{}: cannot start: {}", name_, std::strerror(errno)));
   }
   if (pid_ == 0) {
     // Only async-signal-safe calls from here to exec.
@@ -113,9 +113,9 @@ std::string ChildProcess::lastWords() {
   const std::string last = lastLine();
   std::string how = "is still running";
   if (!running()) {
-    how = WIFEXITED(status_)
-              ? fmt::format("ended with exit code {}", WEXITSTATUS(status_))
-              : fmt::format("was ended by signal {} ({})", WTERMSIG(status_), ::strsignal(WTERMSIG(status_)));
+    how = WIFEXITED(status_) ? fmt::format("ended with exit code {}", WEXITSTATUS(status_))
+                             : fmt::format("was ended by signal {} ({})", WTERMSIG(status_),
+                                           ::strsignal(WTERMSIG(status_)));
   }
   return last.empty() ? how : fmt::format("{}; its last words: {}", how, last);
 }

@@ -19,6 +19,7 @@ std::optional<PlotGroup> contactGroup(const RunLog& log, const RobotParameters& 
                                       const SurroundingsParameters& surroundings);
 
 /// Wall and door as they stood and swung, one pose per recorded truth.
-std::vector<ReplayObject> replayObjects(const RunLog& log, const SurroundingsParameters& surroundings);
+std::vector<ReplayObject> replayObjects(const RunLog& log,
+                                        const SurroundingsParameters& surroundings);
 
 }  // namespace ballbot

@@ -47,8 +47,9 @@ Checkpoint stateOfRun(const RunFolder& run, SimTime time, const ReplayOptions& o
   StepMaster master(plant, controller, calendar, nullptr, master_options);
   if (const auto checkpoint = lastCheckpoint(run, time)) {
     if (checkpoint->time > time) {
-      throw InputError(fmt::format("{}: begins at {:.9g} s, so it cannot be continued from {:.9g} s",
-                                   run.path(), toSeconds(checkpoint->time), toSeconds(time)));
+      throw InputError(
+          fmt::format("{}: begins at {:.9g} s, so it cannot be continued from {:.9g} s", run.path(),
+                      toSeconds(checkpoint->time), toSeconds(time)));
     }
     master.restore(*checkpoint);
   } else {

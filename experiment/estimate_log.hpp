@@ -30,8 +30,8 @@ struct LogEstimate {
 
 /// Plays the sensor frames of a log to the scenario's estimator as the controller process does: one
 /// frame per period of the estimator, at rest until the release. The truth is met by the metrics
-/// only. With the settings of the run and a log that holds every frame the estimator saw, the result
-/// is that of the run bit for bit.
+/// only. With the settings of the run and a log that holds every frame the estimator saw, the
+/// result is that of the run bit for bit.
 /// @throw InputError if the log holds no sensor frames, or the scenario's estimator is not right.
 LogEstimate estimateLog(const RunConfig& config, const RunLog& log);
 

@@ -77,8 +77,9 @@ std::string LiveScene::frame(const TruthFrame& truth) {
   const double dt = started_ && t > last_s_ ? t - last_s_ : 0;
   started_ = true;
   last_s_ = t;
-  const Vector3 w = OmniwheelKinematics::rollingAngularVelocity(
-      truth.state[kPositionDim + kBallVx], truth.state[kPositionDim + kBallVy], config_.robot.ball.radius);
+  const Vector3 w = OmniwheelKinematics::rollingAngularVelocity(truth.state[kPositionDim + kBallVx],
+                                                                truth.state[kPositionDim + kBallVy],
+                                                                config_.robot.ball.radius);
   ball_ = (Eigen::Quaterniond(expSO3(w * dt)) * ball_).normalized();
 
   ReportReplay replay = replayOf(truth, config_);

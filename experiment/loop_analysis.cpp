@@ -14,8 +14,9 @@ double delayOf(const Scenario& scenario, const PlantConfig& plant, double policy
   if (policy_feedback == 0) {
     return toSeconds(scenario.rates.plan_latency) + 0.5 * toSeconds(scenario.rates.planner);
   }
-  const double transport =
-      plant.fidelity.transport_delay ? plant.transport_delay_ticks * toSeconds(plant.drive_period) : 0;
+  const double transport = plant.fidelity.transport_delay
+                               ? plant.transport_delay_ticks * toSeconds(plant.drive_period)
+                               : 0;
   return transport + 0.5 * toSeconds(scenario.rates.tracker);
 }
 
@@ -27,8 +28,9 @@ LoopAnalysis analyseLoop(const RunConfig& config, SimTime at,
   const RobotParameters& robot = config.believedRobot();
   const auto cost = config.controller.law->costAt(at, robot.nominal_arm);
   if (!cost) {
-    throw InputError("the scenario's control law minimises no quadratic cost about an equilibrium, "
-                     "so its loop cannot be analysed; those of the LQR and the MPC can");
+    throw InputError(
+        "the scenario's control law minimises no quadratic cost about an equilibrium, "
+        "so its loop cannot be analysed; those of the LQR and the MPC can");
   }
 
   const ReducedDynamics dynamics(robot);
@@ -36,7 +38,8 @@ LoopAnalysis analyseLoop(const RunConfig& config, SimTime at,
   out.shaping = cost->shaping;
   out.torque_weight = cost->R;
   out.drives = {plant.actuators, toSeconds(plant.drive_period)};
-  out.delay = delay ? toSeconds(*delay) : delayOf(config.scenario, plant, config.controller.tracker.policy_feedback);
+  out.delay = delay ? toSeconds(*delay)
+                    : delayOf(config.scenario, plant, config.controller.tracker.policy_feedback);
   out.law = designShapedLqr(dynamics, robot.nominal_arm, cost->Q, cost->R, cost->shaping);
   out.inertia = freeInertia(dynamics, out.law.equilibrium.x.head<kPositionDim>());
   out.with_ideal_drives = marginsOf(out.law, dynamics, std::nullopt, out.delay);
@@ -46,7 +49,9 @@ LoopAnalysis analyseLoop(const RunConfig& config, SimTime at,
   const TorqueLoop driven(out.law, dynamics, out.drives, out.delay);
   const ActuatorResponse wheel(plant.actuators.wheel, out.drives.drive_period);
   const ActuatorResponse arm(plant.actuators.arm, out.drives.drive_period);
-  const auto gain = [](const TorqueLoop::Wheels& L) { return L.eigenvalues().cwiseAbs().maxCoeff(); };
+  const auto gain = [](const TorqueLoop::Wheels& L) {
+    return L.eigenvalues().cwiseAbs().maxCoeff();
+  };
   const auto distance = [](const TorqueLoop::Wheels& L) {
     return (TorqueLoop::Wheels::Identity() + L).jacobiSvd().singularValues()[kWheelCount - 1];
   };

@@ -46,8 +46,8 @@ void PlantLink::start() {
                               : privateLcmAddress();
     child_ = std::make_unique<ChildProcess>(
         "plant",
-        std::vector<std::string>{"plant", folder_.scenarioFile(), "--lcm-url", address.url, "--channel",
-                                 address.channel, "--quiet"},
+        std::vector<std::string>{"plant", folder_.scenarioFile(), "--lcm-url", address.url,
+                                 "--channel", address.channel, "--quiet"},
         stderr_path_, options_.core);
   }
   transport_ = std::make_unique<LcmTransport>(address, LinkEnd::kMaster);
@@ -55,7 +55,8 @@ void PlantLink::start() {
   remote.config_digest = configDigest64(config_.scenario);
   remote.patience = options_.patience;
   // A plant that is served elsewhere runs already; one that we start needs time to set itself up.
-  remote.first_patience = child_ ? std::max(options_.patience, std::chrono::milliseconds(30'000)) : options_.patience;
+  remote.first_patience =
+      child_ ? std::max(options_.patience, std::chrono::milliseconds(30'000)) : options_.patience;
   remote.added_sensors = config_.plant.plant.added_sensors.signals();
   remote.stop = options_.stop;
   remote.say = options_.say;

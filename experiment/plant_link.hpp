@@ -24,9 +24,9 @@ class PlantLink {
  public:
   struct Options {
     bool in_process = false;
-    bool shared = false;        ///< a child is met on the shared address instead of a private one
-    LcmAddress address;         ///< empty url: start a child and meet it on a private address
-    int core = -1;              ///< processor of the child; -1: any
+    bool shared = false;  ///< a child is met on the shared address instead of a private one
+    LcmAddress address;   ///< empty url: start a child and meet it on a private address
+    int core = -1;        ///< processor of the child; -1: any
     std::chrono::milliseconds patience{10'000};  ///< silence after which the plant counts as lost
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const std::string&)> say;  ///< of a plant that is long at work

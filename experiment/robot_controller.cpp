@@ -27,8 +27,7 @@ RobotController::RobotController(const RunConfig& config, EventCalendar& calenda
   added_to_plan_.values.assign(added_to_plan_.list.size(), 0.0);
   const Rates& rates = config.scenario.rates;
   // Within one event: estimate, then plan, then track.
-  estimator_task_ =
-      calendar.addTask("estimator", rates.estimator, {}, "rates.estimator_period_us");
+  estimator_task_ = calendar.addTask("estimator", rates.estimator, {}, "rates.estimator_period_us");
   planner_task_ = calendar.addTask("planner", rates.planner, {}, "rates.planner_period_us");
   tracker_task_ = calendar.addTask("tracker", rates.tracker, {}, "rates.tracker_period_us");
   if (plan_latency_ > SimDuration::zero()) {
@@ -107,7 +106,8 @@ void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutp
   law_->sample(now, policy);
   const StateVector x = sensing_.estimate(now).x;
   switch (tracker_->step(policy, x, sensors.joint_angle, sensors.joint_velocity, out.command)) {
-    case TrackStatus::kOk: break;
+    case TrackStatus::kOk:
+      break;
     case TrackStatus::kTorqueSaturated:
       ++state_.ticks_saturated;
       break;

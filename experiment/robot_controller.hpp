@@ -34,8 +34,8 @@ class RobotController final : public SteppedController {
   void takeOver(const StateBlob& blob) override;
 
   /// Plans made, refused and made while the LQR stood in, ticks with saturated torque or a command
-  /// that was not finite, what the estimator rejected, how much of the commanded torques was planned
-  /// since the release, and from there on kFallbackPercent.
+  /// that was not finite, what the estimator rejected, how much of the commanded torques was
+  /// planned since the release, and from there on kFallbackPercent.
   std::map<std::string, double> metrics() const override;
   std::vector<std::string> metricNames() const override;
   void setWallClock(PhaseClock now_ns) override;

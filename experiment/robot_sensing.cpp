@@ -1,6 +1,5 @@
 #include "experiment/robot_sensing.hpp"
 
-
 namespace ballbot {
 namespace {
 

@@ -28,7 +28,8 @@ std::int64_t wallNs() noexcept {
 /// Leaves a checkpoint at the first event at or after each multiple of a period.
 class CheckpointKeeper {
  public:
-  CheckpointKeeper(SimDuration period, const RunFolder& folder) : period_(period), folder_(folder) {}
+  CheckpointKeeper(SimDuration period, const RunFolder& folder)
+      : period_(period), folder_(folder) {}
 
   void startAt(SimTime start) {
     if (period_ > SimDuration::zero()) next_ = firstAfter(start);

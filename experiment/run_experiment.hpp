@@ -62,8 +62,8 @@ struct RunResult {
   bool passed = false;
   bool fell = false;
   bool completed = false;  ///< false: it ended early, because the robot fell
-  /// An LQR stood in all the time for an MPC that never had a plan: such a run does not pass, for it
-  /// says nothing of the controller it is about.
+  /// An LQR stood in all the time for an MPC that never had a plan: such a run does not pass, for
+  /// it says nothing of the controller it is about.
   bool no_plan_acted = false;
   SimTime end{};
   std::string trajectory_digest, log_digest;

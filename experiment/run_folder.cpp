@@ -14,12 +14,14 @@ RunFolder RunFolder::create(const std::string& wanted, const std::string& scenar
   std::error_code failed;
   if (!wanted.empty()) {
     if (fs::exists(wanted) && (!fs::is_directory(wanted) || !fs::is_empty(wanted))) {
-      throw InputError(fmt::format("{}: exists already and is not an empty folder. Nothing was "
-                                   "overwritten; give another --out, or remove it",
-                                   wanted));
+      throw InputError(
+          fmt::format("{}: exists already and is not an empty folder. Nothing was "
+                      "overwritten; give another --out, or remove it",
+                      wanted));
     }
     fs::create_directories(wanted, failed);
-    if (failed) throw OutputError(fmt::format("{}: cannot be created: {}", wanted, failed.message()));
+    if (failed)
+      throw OutputError(fmt::format("{}: cannot be created: {}", wanted, failed.message()));
     return RunFolder(wanted);
   }
   fs::create_directories("runs", failed);
@@ -37,10 +39,12 @@ RunFolder RunFolder::create(const std::string& wanted, const std::string& scenar
 RunFolder RunFolder::open(const std::string& path) {
   const RunFolder folder(path);
   if (!fs::is_directory(path)) {
-    throw InputError(fmt::format("{}: no such folder; give the folder of a run, e.g. runs/balance-001", path));
+    throw InputError(
+        fmt::format("{}: no such folder; give the folder of a run, e.g. runs/balance-001", path));
   }
   if (!fs::exists(folder.manifestFile()) || !fs::exists(folder.scenarioFile())) {
-    throw InputError(fmt::format("{}: not the folder of a run: manifest.json or scenario.yaml is missing", path));
+    throw InputError(fmt::format(
+        "{}: not the folder of a run: manifest.json or scenario.yaml is missing", path));
   }
   return folder;
 }

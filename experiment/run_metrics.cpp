@@ -21,8 +21,12 @@ ContactMetrics contactMetrics(const RunConfig& config) {
 RobotLimits limitsOf(const RunConfig& config) {
   const RobotParameters& robot = config.believedRobot();
   const Constraints c = config.controller.law->limits();
-  return {robot.wheel_torque_limit, robot.arm_torque_limit, c.arm_lower, c.arm_upper,
-          c.arm_rate_limit,         c.tilt_limit};
+  return {robot.wheel_torque_limit,
+          robot.arm_torque_limit,
+          c.arm_lower,
+          c.arm_upper,
+          c.arm_rate_limit,
+          c.tilt_limit};
 }
 
 }  // namespace
@@ -34,8 +38,7 @@ RunMetrics::RunMetrics(const RunConfig& config)
       push_(pushIntervals(config), config.scenario.release),
       tracking_(config.scenario.release),
       margins_(limitsOf(config), config.scenario.release),
-      steps_(reference_->eeSteps(), config.scenario.release,
-             kSimStart + config.scenario.duration),
+      steps_(reference_->eeSteps(), config.scenario.release, kSimStart + config.scenario.duration),
       contact_(contactMetrics(config)),
       estimation_(config.scenario.release) {}
 

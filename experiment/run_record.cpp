@@ -28,7 +28,8 @@ Json percentilesUs(const std::vector<PlanTiming>& plans, Get get) {
   std::vector<std::int64_t> sorted;
   for (const PlanTiming& plan : plans) sorted.push_back(get(plan));
   std::sort(sorted.begin(), sorted.end());
-  return {{"p50", percentileUs(sorted, 0.5)}, {"p99", percentileUs(sorted, 0.99)},
+  return {{"p50", percentileUs(sorted, 0.5)},
+          {"p99", percentileUs(sorted, 0.99)},
           {"max", percentileUs(sorted, 1.0)}};
 }
 
@@ -65,7 +66,8 @@ Json summaryJson(const Scenario& scenario, const RunResult& result) {
   for (const auto& [name, value] : result.metrics) {
     if (name.rfind("rejected_", 0) != 0) s["metrics"][name] = value;
   }
-  s["rejected"] = Json::object();  // what the estimator did not believe; reasons not met are left out
+  s["rejected"] =
+      Json::object();  // what the estimator did not believe; reasons not met are left out
   for (const auto& [reason, count] : rejected) s["rejected"][reason] = count;
   s["requirements"] = Json::array();
   for (const VerdictRow& row : result.verdicts) {
@@ -84,22 +86,24 @@ void writeSummary(const Scenario& scenario, const RunResult& result, const RunFo
   writeSealedJson(folder.summaryFile(), summaryJson(scenario, result));
 }
 
-void writeTiming(const RunResult& result,
-                 const RemoteParticipant::LinkStatistics& link,
+void writeTiming(const RunResult& result, const RemoteParticipant::LinkStatistics& link,
                  const std::vector<PlanTiming>& plan_times, std::int64_t log_bytes,
                  const RunFolder& folder) {
   Json t;
   t["wall_s"] = result.wall_seconds;
-  t["real_time_factor"] = result.wall_seconds > 0 ? toSeconds(result.end) / result.wall_seconds : 0.0;
+  t["real_time_factor"] =
+      result.wall_seconds > 0 ? toSeconds(result.end) / result.wall_seconds : 0.0;
   t["requests"] = link.requests;
   t["requests_repeated"] = link.repeated;
   t["log_bytes"] = log_bytes;
   if (!plan_times.empty()) {
     t["plan_us"] = percentilesUs(plan_times, [](const PlanTiming& p) { return p.total_ns; });
     t["plan_phases_us"] = {
-        {"approximation", percentilesUs(plan_times, [](const PlanTiming& p) { return p.approximation_ns; })},
+        {"approximation",
+         percentilesUs(plan_times, [](const PlanTiming& p) { return p.approximation_ns; })},
         {"riccati", percentilesUs(plan_times, [](const PlanTiming& p) { return p.riccati_ns; })},
-        {"line_search", percentilesUs(plan_times, [](const PlanTiming& p) { return p.line_search_ns; })}};
+        {"line_search",
+         percentilesUs(plan_times, [](const PlanTiming& p) { return p.line_search_ns; })}};
   }
   writeTextFile(folder.timingFile(), jsonText(t) + "\n");
 }

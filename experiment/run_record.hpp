@@ -23,8 +23,7 @@ void writeSummary(const Scenario& scenario, const RunResult& result, const RunFo
 
 /// Wall-clock facts: the only file of a run folder that differs between two equal runs.
 /// @param plan_times  of each plan() call
-void writeTiming(const RunResult& result,
-                 const RemoteParticipant::LinkStatistics& link,
+void writeTiming(const RunResult& result, const RemoteParticipant::LinkStatistics& link,
                  const std::vector<PlanTiming>& plan_times, std::int64_t log_bytes,
                  const RunFolder& folder);
 

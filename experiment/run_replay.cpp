@@ -27,8 +27,7 @@ Vector3 pushPoint(const Push& push, const Vector3& p_WK,
 ReplayPose askedPose(const MotionReference& reference, const HomeFrame& home, SimTime t) {
   const PoseVector asked = reference.eePose(t);
   const Matrix3 R_HE = rotationFromYawPitchRoll(asked[3], asked[4], asked[5]);
-  return pose(home.pointInW(asked.head<3>()),
-              Eigen::Quaterniond(home.R_WH() * R_HE));
+  return pose(home.pointInW(asked.head<3>()), Eigen::Quaterniond(home.R_WH() * R_HE));
 }
 
 }  // namespace

@@ -11,9 +11,9 @@
 
 namespace ballbot {
 
-/// The 3-D replay of a run from its recorded truth: base, ball, joints, the end-effector's frame and
-/// what was asked of it, pushes where they act, contact.
-/// Nothing if no truth was recorded. `pushes` are the scheduled ones, for where they act.
+/// The 3-D replay of a run from its recorded truth: base, ball, joints, the end-effector's frame
+/// and what was asked of it, pushes where they act, contact. Nothing if no truth was recorded.
+/// `pushes` are the scheduled ones, for where they act.
 /// @param home  frame in which the reference is meant
 ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot,
                         const std::vector<Push>& pushes, const MotionReference& reference,

@@ -65,8 +65,7 @@ void addBoth(AxesBuilder& axes, const std::string& column, const std::string& na
 }
 
 /// Dashed, where the tasks ask for a place of the ball.
-void addBallReference(const LogTable& truth, const MotionReference& reference,
-                      PlotGroup& group) {
+void addBallReference(const LogTable& truth, const MotionReference& reference, PlotGroup& group) {
   const std::vector<double>& t = truth.column("time_s");
   std::vector<double> asked[2];
   bool any[2] = {false, false};
@@ -214,8 +213,7 @@ std::optional<PlotGroup> addedSensorGroup(const RunLog& log, const std::vector<L
   std::map<std::string, int> channels;
   for (const AddedSignal& signal : log.added_sensors.list) {
     auto& axes = by_unit.try_emplace(signal.unit, tables, "value", signal.unit).first->second;
-    axes.line("sensors", signal.name, signal.name, SeriesStyle::kMeasured,
-              channels[signal.unit]++);
+    axes.line("sensors", signal.name, signal.name, SeriesStyle::kMeasured, channels[signal.unit]++);
   }
   for (const auto& axes : by_unit) group.axes.push_back(axes.second.axes());
   return group;

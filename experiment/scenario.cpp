@@ -24,9 +24,10 @@ namespace fs = std::filesystem;
 
 std::vector<MetricLimit> readRequirements(const ConfigNode& node) {
   if (node.kind() != ConfigNode::Kind::kMap) {
-    throw InputError(fmt::format("{}: requirements must be a mapping from metric to limits, e.g. "
-                                 "'largest_tilt_deg: {{below: 20}}'",
-                                 toText(node.where())));
+    throw InputError(
+        fmt::format("{}: requirements must be a mapping from metric to limits, e.g. "
+                    "'largest_tilt_deg: {{below: 20}}'",
+                    toText(node.where())));
   }
   std::vector<MetricLimit> out;
   for (const auto& [metric, limits] : node.entries()) {
@@ -38,8 +39,9 @@ std::vector<MetricLimit> readRequirements(const ConfigNode& node) {
     if (in.has("above")) r.above = in.number("above");
     in.finish();
     if (!r.below && !r.above) {
-      throw InputError(fmt::format("{}: requirement '{}' has no limit; give 'below', 'above' or both",
-                                   toText(limits.where()), metric));
+      throw InputError(
+          fmt::format("{}: requirement '{}' has no limit; give 'below', 'above' or both",
+                      toText(limits.where()), metric));
     }
     out.push_back(std::move(r));
   }
@@ -50,8 +52,8 @@ std::vector<MetricLimit> readRequirements(const ConfigNode& node) {
 std::string requireUrdf(const ConfigNode& robot) {
   const ConfigNode* urdf = robot.find("urdf");
   if (!urdf || urdf->kind() != ConfigNode::Kind::kScalar) {
-    throw InputError(fmt::format("{}: key 'urdf' (a file name) is missing in 'robot'",
-                                 toText(robot.where())));
+    throw InputError(
+        fmt::format("{}: key 'urdf' (a file name) is missing in 'robot'", toText(robot.where())));
   }
   const std::string path = urdfPath(*urdf);
   if (!fs::is_regular_file(path)) {
@@ -61,14 +63,13 @@ std::string requireUrdf(const ConfigNode& robot) {
   return path;
 }
 
-constexpr const char* kSections[] = {"robot",     "plant",    "initial",    "environment",
+constexpr const char* kSections[] = {"robot",     "plant",      "initial",   "environment",
                                      "estimator", "controller", "recording", "fmus"};
 
 }  // namespace
 
 void Rates::describe(ConfigVisitor& v) {
-  v.duration(may("base_step_us", "of which every period is a whole multiple"), base_step,
-             {1, 1e6});
+  v.duration(may("base_step_us", "of which every period is a whole multiple"), base_step, {1, 1e6});
   v.duration(may("tracker_period_us", "from one command to the drives to the next"), tracker,
              {1, 1e6});
   v.duration(may("estimator_period_us", "from one state estimate to the next"), estimator,
@@ -81,7 +82,8 @@ void Rates::describe(ConfigVisitor& v) {
 const ConfigNode& Scenario::section(const std::string& section_name) const {
   const ConfigNode* node = tree.find(section_name);
   if (!node) {
-    throw InputError(fmt::format("{}: section '{}' is missing", toText(tree.where()), section_name));
+    throw InputError(
+        fmt::format("{}: section '{}' is missing", toText(tree.where()), section_name));
   }
   return *node;
 }
@@ -99,9 +101,10 @@ std::string Scenario::configDigest() const {
 
 ConfigNode loadScenarioTree(const std::string& path) {
   if (fs::is_directory(path)) {
-    throw InputError(fmt::format("{}: is a folder; a scenario is a YAML file such as "
-                                 "configs/scenarios/balance.yaml",
-                                 path));
+    throw InputError(
+        fmt::format("{}: is a folder; a scenario is a YAML file such as "
+                    "configs/scenarios/balance.yaml",
+                    path));
   }
   ConfigNode tree = loadYamlFile(path);
   if (tree.kind() != ConfigNode::Kind::kMap) {

@@ -58,8 +58,9 @@ struct Scenario {
 Scenario loadScenario(const std::string& path, const std::vector<std::string>& overrides = {},
                       std::optional<std::uint64_t> seed = std::nullopt);
 
-/// Writes `scenario.yaml`, `robot.urdf` and the FMUs, if there are any, into `folder`: with includes and overrides resolved,
-/// so that the folder alone says what was run. loadScenario(folder/scenario.yaml) gives the same.
+/// Writes `scenario.yaml`, `robot.urdf` and the FMUs, if there are any, into `folder`: with
+/// includes and overrides resolved, so that the folder alone says what was run.
+/// loadScenario(folder/scenario.yaml) gives the same.
 /// @throw OutputError
 void writeScenario(const Scenario& scenario, const std::string& folder);
 

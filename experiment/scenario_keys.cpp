@@ -99,9 +99,9 @@ std::string asListed(const std::string& path) {
     }
   }
   const std::string near = same_name.empty() ? nearestWord(path, whole) : same_name;
-  throw InputError(fmt::format("no scenario has a key '{}'{} (`ballbot explain` lists the sections)",
-                               path,
-                               near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  throw InputError(
+      fmt::format("no scenario has a key '{}'{} (`ballbot explain` lists the sections)", path,
+                  near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
 }  // namespace

@@ -24,8 +24,9 @@ std::string readTextFile(const std::string& path) {
 
 void writeTextFile(const std::string& path, const std::string& text) {
   if (const int reason = writeWholeFile(path, text)) {
-    throw OutputError(fmt::format("{}: cannot be written: {}. Is there room, and may this user write here?",
-                                  path, std::strerror(reason)));
+    throw OutputError(
+        fmt::format("{}: cannot be written: {}. Is there room, and may this user write here?", path,
+                    std::strerror(reason)));
   }
 }
 

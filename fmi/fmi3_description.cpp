@@ -1,8 +1,7 @@
 #include <fmt/format.h>
 
-#include "fmi/model_xml.hpp"
-
 #include "core/number_text.hpp"
+#include "fmi/model_xml.hpp"
 
 namespace ballbot {
 namespace {

@@ -138,10 +138,11 @@ void exportFmu(const ConfigNode& scenario, const std::string& urdf_path, const F
   entries.push_back({"resources/robot.urdf", urdf});
   entries.push_back({"documentation/index.html", documentation(variables, facts)});
   // The name under which the standard wants licenses to be found.
-  entries.push_back({"documentation/licenses/license.txt",
-                     "Ballbot's own files are under the Apache License 2.0 (ballbot-LICENSE.txt). What "
-                     "comes from others is named in ballbot-NOTICE.txt; its licenses are the other "
-                     "files beside this one, named by their Debian packages.\n"});
+  entries.push_back(
+      {"documentation/licenses/license.txt",
+       "Ballbot's own files are under the Apache License 2.0 (ballbot-LICENSE.txt). What "
+       "comes from others is named in ballbot-NOTICE.txt; its licenses are the other "
+       "files beside this one, named by their Debian packages.\n"});
   for (const fs::path& file : filesIn(libraries / "licenses")) {
     entries.push_back({"documentation/licenses/" + file.filename().string(), readFile(file)});
   }

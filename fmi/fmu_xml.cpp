@@ -138,8 +138,7 @@ class DescriptionReader {
         unit.K = base->IntAttribute("K");
         // Of units with other dimensions, or an offset, only the name is compared.
         const bool known = real(base, "offset", 0) == 0 && !base->IntAttribute("A") &&
-                           !base->IntAttribute("mol") &&
-                           !base->IntAttribute("cd");
+                           !base->IntAttribute("mol") && !base->IntAttribute("cd");
         unit.has_base = known;
       }
       out_.units.push_back(unit);

@@ -5,8 +5,7 @@
 namespace ballbot {
 
 NativePlantModel::NativePlantModel(const PlantConfig& config)
-    : plant_(config),
-      outputs_(rowSize(sensorSignals()) + rowSize(truthSignals()), 0.0) {
+    : plant_(config), outputs_(rowSize(sensorSignals()) + rowSize(truthSignals()), 0.0) {
   observe();
 }
 

@@ -170,7 +170,8 @@ double PlantFmu::value(ValueReference reference) {
 void PlantFmu::setValue(ValueReference reference, double value) {
   const FmuVariable* v = variables_.find(reference);
   if (!v) throw InputError(fmt::format("there is no variable with value reference {}", reference));
-  const bool before_start = mode_ == LifecycleState::kInstantiated || mode_ == LifecycleState::kInitialization;
+  const bool before_start =
+      mode_ == LifecycleState::kInstantiated || mode_ == LifecycleState::kInitialization;
   const std::string name = elementName(*v, static_cast<int>(reference - v->reference));
   if (!v->hasStart()) {
     throw InputError(fmt::format("'{}' cannot be set: it is no input and no parameter", name));

@@ -12,7 +12,7 @@ namespace ballbot {
 ///   torque         = sign * torque_reference / 1000 * 6077 (or 6071, 60B2)
 ///   motor torque   = sign * motor_torque_reference / 1000 * 6078
 struct DriveScaling {
-  double torque_reference = 1;      ///< torque of 1000 per mille: rated torque 6076 [N m]
+  double torque_reference = 1;  ///< torque of 1000 per mille: rated torque 6076 [N m]
   /// Torque behind the gear at the motor's rated current 6075; 0: the rated torque [N m].
   double motor_torque_reference = 0;
   double encoder_counts = 1;        ///< per turn of the joint (608F:01 / 608F:02 for 6064)

@@ -13,9 +13,10 @@ namespace ballbot {
 ///
 ///   disable voltage -> quick stop -> disable voltage -> NMT stop -> given up
 ///
-/// After NMT stop it is told "disable voltage" once more, by SDO: one that was stopped already has heard
-/// nothing of the rest. Each stage lasts `patience` cycles, the last one ten times as long. A drive that says by
-/// statusword that it is off goes no further; one that says later that it is on begins again.
+/// After NMT stop it is told "disable voltage" once more, by SDO: one that was stopped already has
+/// heard nothing of the rest. Each stage lasts `patience` cycles, the last one ten times as long. A
+/// drive that says by statusword that it is off goes no further; one that says later that it is on
+/// begins again.
 class WayDown {
  public:
   enum class Stage : std::uint8_t { kDisable, kQuickStop, kDisableAgain, kNmtStop, kGivenUp };

@@ -94,7 +94,7 @@ bool lengthsHold<ballbot_msgs::step_reply>(const std::uint8_t* data, std::size_t
       .text()
       .skip(8 + 8 + innerBytes<ballbot_msgs::sensor_frame>())  // time, digest
       .counted(innerBytes<ballbot_msgs::truth_frame>())
-      .counted(8)  // added
+      .counted(8)   // added
       .skip(4 + 4)  // blob_size, blob_offset
       .counted(1)   // chunk
       .ends();
@@ -149,9 +149,9 @@ bool decodeHeader(const std::uint8_t* data, std::size_t size,
 
 std::int64_t messageDigest() {
   const std::int64_t fingerprints[] = {
-      ballbot_msgs::step_request::getHash(), ballbot_msgs::step_reply::getHash(),
+      ballbot_msgs::step_request::getHash(),   ballbot_msgs::step_reply::getHash(),
       ballbot_msgs::state_estimate::getHash(), ballbot_msgs::plan_report::getHash(),
-      ballbot_msgs::tick_digests::getHash(), ballbot_msgs::added_values::getHash()};
+      ballbot_msgs::tick_digests::getHash(),   ballbot_msgs::added_values::getHash()};
   return static_cast<std::int64_t>(hash64(fingerprints, sizeof fingerprints));
 }
 

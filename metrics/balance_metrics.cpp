@@ -6,10 +6,7 @@
 #include "core/angle.hpp"
 
 namespace ballbot {
-namespace {
-
-
-}  // namespace
+namespace {}  // namespace
 
 double tiltAngle(const StateVector& x) {
   // z_B . z_W = cos(pitch) cos(roll)
@@ -34,10 +31,13 @@ void BalanceMetrics::add(const TruthFrame& truth, const ActuatorCommand& command
   excursion2_integral_ += dt * excursion * excursion;
   tilt2_integral_ += dt * tilt * tilt;
   observed_s_ += dt;
-  largest_wheel_torque_ = std::max(largest_wheel_torque_, truth.joint_torque.head<3>().cwiseAbs().maxCoeff());
-  largest_arm_torque_ = std::max(largest_arm_torque_, truth.joint_torque.tail<3>().cwiseAbs().maxCoeff());
+  largest_wheel_torque_ =
+      std::max(largest_wheel_torque_, truth.joint_torque.head<3>().cwiseAbs().maxCoeff());
+  largest_arm_torque_ =
+      std::max(largest_arm_torque_, truth.joint_torque.tail<3>().cwiseAbs().maxCoeff());
   torque_error2_integral_ += dt * (truth.joint_torque - command.torque).head<3>().squaredNorm() / 3;
-  arm_torque_error2_integral_ += dt * (truth.joint_torque - command.torque).tail<3>().squaredNorm() / 3;
+  arm_torque_error2_integral_ +=
+      dt * (truth.joint_torque - command.torque).tail<3>().squaredNorm() / 3;
   if (!fell_ && !(tilt < kFallTiltDeg / kDegPerRad)) {
     fell_ = true;
     fall_time_ = truth.time;

@@ -10,7 +10,7 @@
 namespace ballbot {
 namespace {
 
-constexpr double kSmallest_N = 0.05;    // asked for: as good as none
+constexpr double kSmallest_N = 0.05;  // asked for: as good as none
 constexpr double kUnchanged_N = 0.02;
 
 double rms(double sum_of_squares, double time) { return std::sqrt(sum_of_squares / time); }
@@ -110,12 +110,15 @@ std::map<std::string, double> ContactMetrics::values() const {
 }
 
 std::vector<std::string> ContactMetrics::names() {
-  return {"com_balance_error_percent", "com_shift_error_percent",  "com_shift_expected_m",
-          "com_shift_m",               "contact_kept_percent",     "contact_phases",
-          "contact_sliding_percent",   "contact_time_s",           "final_door_angle_deg",
-          "force_mean_N",              "force_mean_error_percent", "force_rms_error_build_up_N",
-          "force_rms_error_percent",   "force_rms_error_steady_N", "force_sensing_rms_error_N",
-          "largest_contact_force_N",   "largest_door_angle_deg",   "push_lean_deg"};
+  return {"com_balance_error_percent", "com_shift_error_percent",
+          "com_shift_expected_m",      "com_shift_m",
+          "contact_kept_percent",      "contact_phases",
+          "contact_sliding_percent",   "contact_time_s",
+          "final_door_angle_deg",      "force_mean_N",
+          "force_mean_error_percent",  "force_rms_error_build_up_N",
+          "force_rms_error_percent",   "force_rms_error_steady_N",
+          "force_sensing_rms_error_N", "largest_contact_force_N",
+          "largest_door_angle_deg",    "push_lean_deg"};
 }
 
 }  // namespace ballbot

@@ -100,7 +100,8 @@ std::map<std::string, double> EeStepMetrics::values() const {
 }
 
 std::vector<std::string> EeStepMetrics::names() {
-  std::vector<std::string> names = {"ee_position_error_m", "ee_angle_error_rad", "ee_roll_given_percent", "ball_backs_up_m"};
+  std::vector<std::string> names = {"ee_position_error_m", "ee_angle_error_rad",
+                                    "ee_roll_given_percent", "ball_backs_up_m"};
   for (int i = 0; i < kRollComponent; ++i) {
     names.push_back(std::string("ee_") + kNames[i] + "_rise_s");
     names.push_back(std::string("ee_") + kNames[i] + "_overshoot_percent");

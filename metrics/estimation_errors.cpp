@@ -34,8 +34,8 @@ void EstimationErrors::add(const TruthFrame& truth, const StateVector& estimate)
   const Vector3 up_true_W = R_estimate * (attitude(x_true).transpose() * Vector3::UnitZ());
   error_.tilt_W << up_true_W.y(), -up_true_W.x();
   const double tilt = std::atan2(error_.tilt_W.norm(), up_true_W.z());
-  error_.velocity_W = x_true.segment<2>(kPositionDim + kBallVx) -
-                      estimate.segment<2>(kPositionDim + kBallVx);
+  error_.velocity_W =
+      x_true.segment<2>(kPositionDim + kBallVx) - estimate.segment<2>(kPositionDim + kBallVx);
 
   const double dt = toSeconds(truth.time - last_);
   observed_s_ += dt;
@@ -80,9 +80,15 @@ std::map<std::string, double> EstimationErrors::values() const {
 }
 
 std::vector<std::string> EstimationErrors::names() {
-  return {"tilt_rms_deg",     "largest_tilt_error_deg", "velocity_rms_m_per_s",
-          "yaw_error_deg",    "position_error_m",       "position_drift_percent",
-          "nees_mean",        "nis_mean",               "nis_degrees_mean"};
+  return {"tilt_rms_deg",
+          "largest_tilt_error_deg",
+          "velocity_rms_m_per_s",
+          "yaw_error_deg",
+          "position_error_m",
+          "position_drift_percent",
+          "nees_mean",
+          "nis_mean",
+          "nis_degrees_mean"};
 }
 
 }  // namespace ballbot

@@ -8,7 +8,8 @@
 
 namespace ballbot {
 
-/// How much of the torques was planned and how much feedback had to add (Minniti et al. 2019, alpha):
+/// How much of the torques was planned and how much feedback had to add (Minniti et al. 2019,
+/// alpha):
 ///
 ///   alpha = 100 |tau_ff| / (|tau_ff| + |tau_fb|),
 ///

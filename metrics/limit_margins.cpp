@@ -6,19 +6,21 @@
 #include "metrics/balance_metrics.hpp"
 
 namespace ballbot {
-namespace {
-
-
-}  // namespace
+namespace {}  // namespace
 
 void LimitMargins::add(const TruthFrame& truth, const ActuatorCommand& command) {
   if (truth.time < from_) return;
   any_ = true;
   const Vector3 arm = truth.state.segment<3>(kArm1);
   const Vector3 rate = truth.state.segment<3>(kPositionDim + kArmRate1);
-  wheel_torque_ = std::min(wheel_torque_, limits_.wheel_torque - command.torque.head<kWheelCount>().cwiseAbs().maxCoeff());
-  arm_torque_ = std::min(arm_torque_, limits_.arm_torque - command.torque.tail<kArmJointCount>().cwiseAbs().maxCoeff());
-  arm_position_ = std::min(arm_position_, std::min((arm - limits_.arm_lower).minCoeff(), (limits_.arm_upper - arm).minCoeff()));
+  wheel_torque_ =
+      std::min(wheel_torque_,
+               limits_.wheel_torque - command.torque.head<kWheelCount>().cwiseAbs().maxCoeff());
+  arm_torque_ =
+      std::min(arm_torque_,
+               limits_.arm_torque - command.torque.tail<kArmJointCount>().cwiseAbs().maxCoeff());
+  arm_position_ = std::min(arm_position_, std::min((arm - limits_.arm_lower).minCoeff(),
+                                                   (limits_.arm_upper - arm).minCoeff()));
   arm_rate_ = std::min(arm_rate_, limits_.arm_rate - rate.cwiseAbs().maxCoeff());
   tilt_ = std::min(tilt_, limits_.tilt - tiltAngle(truth.state));
 }
@@ -33,8 +35,9 @@ std::map<std::string, double> LimitMargins::values() const {
 }
 
 std::vector<std::string> LimitMargins::names() {
-  return {"least_wheel_torque_margin_Nm", "least_arm_torque_margin_Nm", "least_arm_position_margin_rad",
-          "least_arm_rate_margin_rad_per_s", "least_tilt_margin_deg"};
+  return {"least_wheel_torque_margin_Nm", "least_arm_torque_margin_Nm",
+          "least_arm_position_margin_rad", "least_arm_rate_margin_rad_per_s",
+          "least_tilt_margin_deg"};
 }
 
 }  // namespace ballbot

@@ -20,7 +20,8 @@ Eigen::Vector2d horizontalLean(const StateVector& x) {
 }  // namespace
 
 PushMetrics::PushMetrics(std::vector<Interval> pushes, SimTime release) {
-  std::sort(pushes.begin(), pushes.end(), [](const Interval& a, const Interval& b) { return a.start < b.start; });
+  std::sort(pushes.begin(), pushes.end(),
+            [](const Interval& a, const Interval& b) { return a.start < b.start; });
   for (const Interval& push : pushes) {
     const SimTime start = std::max(push.start, release);
     if (push.end <= start) continue;
@@ -38,7 +39,8 @@ void PushMetrics::add(const TruthFrame& truth, const PlaceReference& reference) 
   if (!started_) {
     started_ = true;  // of a run that continues another: pushes that were before are not its own
     const auto before = [&](const Response& r) { return r.start < truth.time; };
-    responses_.erase(std::remove_if(responses_.begin(), responses_.end(), before), responses_.end());
+    responses_.erase(std::remove_if(responses_.begin(), responses_.end(), before),
+                     responses_.end());
   }
   // The newest push that has begun is the one the robot answers.
   auto it = std::find_if(responses_.rbegin(), responses_.rend(),
@@ -112,13 +114,15 @@ std::map<std::string, double> PushMetrics::values() const {
   m["largest_push_arm_excursion_rad"] = arm;
   if (all_ball_back) m["longest_push_return_s"] = ball_back;
   if (all_ee_back) m["longest_push_ee_return_s"] = ee_back;
-  if (any_force) m["least_lean_against_push_deg"] = std::asin(std::clamp(lean, -1.0, 1.0)) * kDegPerRad;
+  if (any_force)
+    m["least_lean_against_push_deg"] = std::asin(std::clamp(lean, -1.0, 1.0)) * kDegPerRad;
   return m;
 }
 
 std::vector<std::string> PushMetrics::names() {
-  return {"largest_push_excursion_m",    "longest_push_return_s",          "largest_push_ee_excursion_m",
-          "longest_push_ee_return_s",    "largest_push_arm_excursion_rad", "least_lean_against_push_deg"};
+  return {"largest_push_excursion_m",       "longest_push_return_s",
+          "largest_push_ee_excursion_m",    "longest_push_ee_return_s",
+          "largest_push_arm_excursion_rad", "least_lean_against_push_deg"};
 }
 
 }  // namespace ballbot

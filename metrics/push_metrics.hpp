@@ -28,8 +28,8 @@ class PushMetrics {
     SimTime start, end;
     Eigen::Vector2d force = Eigen::Vector2d::Zero();  ///< horizontal part [N]
   };
-  /// Pushes that overlap count as one, from the first start to the last end, and act with the sum of
-  /// their impulses.
+  /// Pushes that overlap count as one, from the first start to the last end, and act with the sum
+  /// of their impulses.
   /// @param release  what is before does not count
   explicit PushMetrics(std::vector<Interval> pushes, SimTime release = kSimStart);
 

@@ -7,8 +7,8 @@ namespace ballbot {
 
 /// Everything above the ball as one mass: base with wheels, arm, payload.
 struct UpperBody {
-  double mass = 0;                  ///< [kg]
-  Vector3 p_WC = Vector3::Zero();   ///< centre of mass [m]
+  double mass = 0;                 ///< [kg]
+  Vector3 p_WC = Vector3::Zero();  ///< centre of mass [m]
 };
 UpperBody upperBody(const RobotParameters& robot, const StateVector& x);
 
@@ -24,7 +24,7 @@ struct Lean {
   double shift = 0;           ///< of the centre of mass [m]
   double normal_shift = 0;    ///< balances F alone, F_z left out [m]
   double balanced_shift = 0;  ///< balances both [m]
-  double angle = 0;           ///< of the base's z axis from vertical, in the direction of pushing [rad]
+  double angle = 0;  ///< of the base's z axis from vertical, in the direction of pushing [rad]
 };
 /// @param push  unit vector, horizontal: where the robot pushes to
 Lean leanOf(const RobotParameters& robot, const TruthFrame& truth, const Vector3& push);

@@ -7,8 +7,8 @@
 namespace ballbot {
 
 /// How one quantity follows a step of its reference, from the step to the end of its window. It is
-/// given as its deviation from the reference after the step; that of an angle is wrapped, and a step
-/// of half a turn may be made either way round.
+/// given as its deviation from the reference after the step; that of an angle is wrapped, and a
+/// step of half a turn may be made either way round.
 class StepResponse {
  public:
   /// The last stretch of the window, over which the remaining error is averaged.
@@ -23,7 +23,8 @@ class StepResponse {
 
   /// Whether there was anything to see of it.
   bool measured() const { return from_.has_value(); }
-  /// Time from the step until 90 % of the way to the reference are made first [s]; nothing if never.
+  /// Time from the step until 90 % of the way to the reference are made first [s]; nothing if
+  /// never.
   std::optional<double> riseTime() const { return rise_s_; }
   /// Furthest beyond the reference, in percent of the step; at least zero.
   double overshootPercent() const { return overshoot_percent_; }

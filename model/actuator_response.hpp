@@ -32,8 +32,9 @@ class ActuatorResponse {
   double half_tick_;
 };
 
-/// The `torque_bandwidth` [Hz] with which an actuator like `p`, output blocked, measures -3 dB there:
-/// by its encoders, which see the spring's deflection and not the torque of the spring's damping.
+/// The `torque_bandwidth` [Hz] with which an actuator like `p`, output blocked, measures -3 dB
+/// there: by its encoders, which see the spring's deflection and not the torque of the spring's
+/// damping.
 /// @throw NumericalError if no drive of this motor and spring has it
 double torqueBandwidthFor(ActuatorParameters p, double drive_period, double measured_bandwidth_Hz);
 

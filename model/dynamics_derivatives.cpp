@@ -55,9 +55,8 @@ void linearizeDynamics(const DynamicsConstants& constants, const DynamicsLanes& 
     residual.addMoment(lanes.gathered<0, 3>(moment_W));
     for (int k = 0; k < 3; ++k) {
       inverse_mass.multiplyInPlace(residual.by_moment.col(k));
-      lanes.put<kVelocityDim>(&residual.by_moment(0, k), out, [k](Linearization& o) {
-        return &o.df_dmoment(kPositionDim, k);
-      });
+      lanes.put<kVelocityDim>(&residual.by_moment(0, k), out,
+                              [k](Linearization& o) { return &o.df_dmoment(kPositionDim, k); });
     }
   }
   for (int k = 0; k < Residual::kColumnCount; ++k) {

@@ -13,8 +13,8 @@ struct SelfAssessment {
   SimTime time{};
   /// Covariance of the errors of tilt about the horizontal axes of W [rad] and of vx, vy [m/s].
   Eigen::Matrix4d tilt_velocity_covariance = Eigen::Matrix4d::Zero();
-  double nis = 0;       ///< normalised innovation squared of the last update
-  int nis_degrees = 0;  ///< its degrees of freedom, which are its expectation
+  double nis = 0;                        ///< normalised innovation squared of the last update
+  int nis_degrees = 0;                   ///< its degrees of freedom, which are its expectation
   Vector3 accel_bias = Vector3::Zero();  ///< as estimated, in B [m/s^2]
   Vector3 gyro_bias = Vector3::Zero();   ///< likewise [rad/s]
 };

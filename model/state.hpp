@@ -15,7 +15,16 @@ namespace ballbot {
 // angular parts differ by the Euler rate matrix (model/frames.hpp).
 
 enum PositionIndex : int { kBallX, kBallY, kYaw, kPitch, kRoll, kArm1, kArm2, kArm3 };
-enum VelocityIndex : int { kBallVx, kBallVy, kOmegaX, kOmegaY, kOmegaZ, kArmRate1, kArmRate2, kArmRate3 };
+enum VelocityIndex : int {
+  kBallVx,
+  kBallVy,
+  kOmegaX,
+  kOmegaY,
+  kOmegaZ,
+  kArmRate1,
+  kArmRate2,
+  kArmRate3
+};
 
 constexpr int kPositionDim = 8;
 constexpr int kVelocityDim = 8;
@@ -30,7 +39,7 @@ using Vector3 = Eigen::Matrix<double, 3, 1>;
 using Matrix3 = Eigen::Matrix<double, 3, 3>;
 using PositionVector = Eigen::Matrix<double, kPositionDim, 1>;
 using VelocityVector = Eigen::Matrix<double, kVelocityDim, 1>;
-using StateVector = Eigen::Matrix<double, kStateDim, 1>;   ///< (q, nu)
+using StateVector = Eigen::Matrix<double, kStateDim, 1>;    ///< (q, nu)
 using JointVector = Eigen::Matrix<double, kJointCount, 1>;  ///< one value per actuator
 
 }  // namespace ballbot

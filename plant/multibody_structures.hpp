@@ -6,8 +6,8 @@
 
 namespace ballbot {
 
-/// The structures on a rigid floor behind makeMultibody(). The wheels' transverse inertia and mass belong to
-/// the base in both; only their spin is theirs.
+/// The structures on a rigid floor behind makeMultibody(). The wheels' transverse inertia and mass
+/// belong to the base in both; only their spin is theirs.
 std::unique_ptr<Multibody> makeFullMultibody(const RobotParameters& robot,
                                              const MultibodyOptions& options);
 std::unique_ptr<Multibody> makeReducedMultibody(const RobotParameters& robot,

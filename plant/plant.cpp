@@ -22,9 +22,12 @@ constexpr std::uint32_t kBlobVersion = 1;
 
 const char* nameOf(ContactLevel contact) {
   switch (contact) {
-    case ContactLevel::kRolling: return "rolling";
-    case ContactLevel::kRollingWithSpinFriction: return "rolling_with_spin_friction";
-    case ContactLevel::kCompliant: break;
+    case ContactLevel::kRolling:
+      return "rolling";
+    case ContactLevel::kRollingWithSpinFriction:
+      return "rolling_with_spin_friction";
+    case ContactLevel::kCompliant:
+      break;
   }
   return "compliant";
 }
@@ -41,8 +44,7 @@ std::string stateForm(const PlantConfig& c) {
       "multibody {}, actuators {}, contact {}, drive period {}, delay of {} ticks, IMU period "
       "{}{}{}{}",
       f.multibody == MultibodyStructure::kFull ? "full" : "reduced_wheels",
-      f.actuators == ActuatorLevel::kIdeal ? "ideal" : "series_elastic",
-      nameOf(f.contact),
+      f.actuators == ActuatorLevel::kIdeal ? "ideal" : "series_elastic", nameOf(f.contact),
       toText(c.drive_period), f.transport_delay ? c.transport_delay_ticks : 0,
       toText(c.sensors.imu.period), c.surroundings.door ? ", a door" : "",
       c.surroundings.wall ? ", a wall" : "",
@@ -114,7 +116,8 @@ class Plant::Impl {
     const bool finite = forces.base_force_W.allFinite() && forces.base_point_B.allFinite() &&
                         forces.end_effector_force_W.allFinite();
     if (!finite) {
-      throw NumericalError(fmt::format("plant at {}: external forces must be finite", toText(now())));
+      throw NumericalError(
+          fmt::format("plant at {}: external forces must be finite", toText(now())));
     }
     external_ = forces;
   }
@@ -172,8 +175,8 @@ class Plant::Impl {
 
   template <typename AnyState, typename Actuators, typename Faults, typename Capture,
             typename Added, typename Visitor>
-  void visitState(AnyState& s, Actuators& actuators, Faults& faults, Capture& capture,
-                  Added& added, Visitor& visit) const {
+  void visitState(AnyState& s, Actuators& actuators, Faults& faults, Capture& capture, Added& added,
+                  Visitor& visit) const {
     visit.form(form_, [this](const std::string& saved) {
       return fmt::format("saved plant state is of a plant with {}; this one has {}", saved, form_);
     });

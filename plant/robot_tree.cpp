@@ -49,11 +49,13 @@ void requireRigidBody(const BodyInertia& b, const std::string& name) {
   const double rounding = 1e-9 * std::abs(m.sum());
   // Written so that NaN does not pass.
   if (b.mass >= 0 && m[0] >= -rounding && m[0] + m[1] >= m[2] - rounding) return;
-  throw InputError(fmt::format(
-      "the inertia of {} is not that of a rigid body once wheels and rotors are taken apart: its mass is "
-      "{:.4g} kg, its principal moments about its centre of mass are {:.4g}, {:.4g} and {:.4g} kg m^2; none "
-      "may be negative, and none larger than the sum of the other two",
-      name, b.mass, m[0], m[1], m[2]));
+  throw InputError(
+      fmt::format("the inertia of {} is not that of a rigid body once wheels and rotors are taken "
+                  "apart: its mass is "
+                  "{:.4g} kg, its principal moments about its centre of mass are {:.4g}, {:.4g} "
+                  "and {:.4g} kg m^2; none "
+                  "may be negative, and none larger than the sum of the other two",
+                  name, b.mass, m[0], m[1], m[2]));
 }
 
 }  // namespace

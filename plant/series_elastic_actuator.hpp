@@ -23,8 +23,8 @@ double torqueAtSpeed(const ActuatorParameters& p, double speed_in_torque_directi
 /// ticks, so it is solved in closed form and costs the integrator no state.
 ///
 /// Without spring the actuator is ideal: the torque asked for, within the speed limit if there is
-/// one, is on the joint at once. Friction is the rotor's, inside the torque loop, so an ideal torque
-/// source has none whatever `friction` says.
+/// one, is on the joint at once. Friction is the rotor's, inside the torque loop, so an ideal
+/// torque source has none whatever `friction` says.
 class SeriesElasticActuator {
  public:
   SeriesElasticActuator(const ActuatorParameters& p, bool friction, bool speed_limit, bool spring)

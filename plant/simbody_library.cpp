@@ -1,9 +1,8 @@
 #include "plant/simbody_library.hpp"
 
-#include <Simbody.h>
-
 #include <array>
 
+#include <Simbody.h>
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -27,10 +26,12 @@ std::string loadedSimbodyKind() {
 
 void requireSimbodyKind(const std::string& loaded) {
   if (loaded == kCompiledFor) return;
-  throw InputError(fmt::format(
-      "the Simbody library that was loaded is a '{}' build, this program was compiled for a '{}' one. "
-      "Is LD_LIBRARY_PATH set? Unset it, or build again: ./bootstrap build (--native-simbody for a release build)",
-      loaded, kCompiledFor));
+  throw InputError(
+      fmt::format("the Simbody library that was loaded is a '{}' build, this program was compiled "
+                  "for a '{}' one. "
+                  "Is LD_LIBRARY_PATH set? Unset it, or build again: ./bootstrap build "
+                  "(--native-simbody for a release build)",
+                  loaded, kCompiledFor));
 }
 
 }  // namespace ballbot

@@ -5,9 +5,9 @@
 
 namespace ballbot {
 
-/// Wheels and rotors as bodies of their own, for structures that have them. The full structure makes
-/// its own: compiled elsewhere their inertias round otherwise in the last bit, and with them every
-/// digest of a run.
+/// Wheels and rotors as bodies of their own, for structures that have them. The full structure
+/// makes its own: compiled elsewhere their inertias round otherwise in the last bit, and with them
+/// every digest of a run.
 ///
 /// A rotor's mass and transverse inertia are part of the body that carries it: they are taken out
 /// of it here, so that a robot with its rotors locked is the robot it was.

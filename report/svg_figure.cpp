@@ -14,16 +14,24 @@ constexpr double kLeft = 84, kPlotWidth = 620, kLegendWidth = 236, kPlotHeight =
 constexpr double kTitleHeight = 40, kBelow = 58;
 constexpr int kTickCount = 6;
 // Okabe and Ito's colours, told apart by most eyes and in grey.
-constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
+constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73",
+                                    "#cc79a7", "#e69f00", "#56b4e9"};
 
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -77,7 +85,9 @@ Span spanOf(const SvgAxes& axes, bool of_x) {
     high = log ? high * 2 : high + 1;
   }
   if (of_x) return {low, high};
-  if (log) return {std::pow(10, std::floor(std::log10(low) + 1e-9)), std::pow(10, std::ceil(std::log10(high) - 1e-9))};
+  if (log)
+    return {std::pow(10, std::floor(std::log10(low) + 1e-9)),
+            std::pow(10, std::ceil(std::log10(high) - 1e-9))};
   const double room = 0.06 * (high - low);
   return {low - room, high + room};
 }
@@ -145,21 +155,25 @@ std::string axesElement(const SvgAxes& axes, double top, int index) {
   const Scale sy(y.low, y.high, axes.log_y, bottom, top);
   std::string out;
   for (const SvgSpan& s : axes.shaded) {
-    const double from = std::clamp(sx(s.from), kLeft, right), to = std::clamp(sx(s.to), kLeft, right);
-    out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' class='span'/>\n", number(from), number(top),
-                       number(std::max(0.0, to - from)), number(kPlotHeight));
+    const double from = std::clamp(sx(s.from), kLeft, right),
+                 to = std::clamp(sx(s.to), kLeft, right);
+    out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' class='span'/>\n", number(from),
+                       number(top), number(std::max(0.0, to - from)), number(kPlotHeight));
   }
   if (axes.log_x) {
-    for (const double v : minorTicks(x.low, x.high)) out += lineElement(sx(v), top, sx(v), bottom, "class='minor'");
+    for (const double v : minorTicks(x.low, x.high))
+      out += lineElement(sx(v), top, sx(v), bottom, "class='minor'");
   }
   if (axes.log_y) {
-    for (const double v : minorTicks(y.low, y.high)) out += lineElement(kLeft, sy(v), right, sy(v), "class='minor'");
+    for (const double v : minorTicks(y.low, y.high))
+      out += lineElement(kLeft, sy(v), right, sy(v), "class='minor'");
   }
   const std::size_t words = axes.x_words.size();
   for (std::size_t i = 0; i < words; ++i) {
     const double at = sx(static_cast<double>(i));
     out += lineElement(at, top, at, bottom, "class='grid'");
-    out += textElement(at, bottom + 17 + (i % 2 == 0 ? 0 : 14), "middle", axes.x_words[i]);  // in two rows
+    out += textElement(at, bottom + 17 + (i % 2 == 0 ? 0 : 14), "middle",
+                       axes.x_words[i]);  // in two rows
   }
   for (const double v : words > 0 ? std::vector<double>() : axisTicks(x.low, x.high, axes.log_x)) {
     out += lineElement(sx(v), top, sx(v), bottom, "class='grid'");
@@ -169,16 +183,21 @@ std::string axesElement(const SvgAxes& axes, double top, int index) {
     out += lineElement(kLeft, sy(v), right, sy(v), "class='grid'");
     out += textElement(kLeft - 7, sy(v) + 4, "end", tickText(v));
   }
-  out += fmt::format("<clipPath id='c{}'><rect x='{}' y='{}' width='{}' height='{}'/></clipPath>\n<g clip-path='url(#c{})'>\n",
-                     index, number(kLeft), number(top), number(kPlotWidth), number(kPlotHeight), index);
-  for (const SvgMark& m : axes.at_x) out += lineElement(sx(m.value), top, sx(m.value), bottom, "class='mark'");
-  for (const SvgMark& m : axes.at_y) out += lineElement(kLeft, sy(m.value), right, sy(m.value), "class='mark'");
+  out += fmt::format(
+      "<clipPath id='c{}'><rect x='{}' y='{}' width='{}' height='{}'/></clipPath>\n<g "
+      "clip-path='url(#c{})'>\n",
+      index, number(kLeft), number(top), number(kPlotWidth), number(kPlotHeight), index);
+  for (const SvgMark& m : axes.at_x)
+    out += lineElement(sx(m.value), top, sx(m.value), bottom, "class='mark'");
+  for (const SvgMark& m : axes.at_y)
+    out += lineElement(kLeft, sy(m.value), right, sy(m.value), "class='mark'");
   for (const SvgBand& b : axes.bands) out += area(b, sx, sy);
   for (const SvgSeries& s : axes.series) out += path(s, sx, sy);
   out += "</g>\n";
   out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#333'/>\n",
                      number(kLeft), number(top), number(kPlotWidth), number(kPlotHeight));
-  out += textElement(kLeft + kPlotWidth / 2, bottom + (words > 0 ? 48 : 37), "middle", axes.x_label, "class='label'");
+  out += textElement(kLeft + kPlotWidth / 2, bottom + (words > 0 ? 48 : 37), "middle", axes.x_label,
+                     "class='label'");
   const double middle = top + kPlotHeight / 2;
   out += textElement(18, middle, "middle", axes.y_label,
                      fmt::format("class='label' transform='rotate(-90 18 {})'", number(middle)));
@@ -209,17 +228,22 @@ std::vector<double> axisTicks(double low, double high, bool log) {
   std::vector<double> out;
   if (log) {
     const bool wide = high / low >= 100;
-    for (int e = static_cast<int>(std::floor(std::log10(low))); e <= static_cast<int>(std::ceil(std::log10(high))); ++e) {
+    for (int e = static_cast<int>(std::floor(std::log10(low)));
+         e <= static_cast<int>(std::ceil(std::log10(high))); ++e) {
       for (const int factor : {1, 2, 5}) {
         const double v = factor * std::pow(10.0, e);
-        if ((factor == 1 || !wide) && v >= low * (1 - 1e-9) && v <= high * (1 + 1e-9)) out.push_back(v);
+        if ((factor == 1 || !wide) && v >= low * (1 - 1e-9) && v <= high * (1 + 1e-9))
+          out.push_back(v);
       }
     }
     return out;
   }
   const double rough = (high - low) / kTickCount;
   const double decade = std::pow(10.0, std::floor(std::log10(rough)));
-  const double step = decade * (rough > 5 * decade ? 10 : rough > 2 * decade ? 5 : rough > decade ? 2 : 1);
+  const double step = decade * (rough > 5 * decade   ? 10
+                                : rough > 2 * decade ? 5
+                                : rough > decade     ? 2
+                                                     : 1);
   for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) {
     out.push_back(k == 0 ? 0 : k * step);
   }
@@ -231,7 +255,8 @@ std::string svgFigure(const std::string& title, const std::vector<SvgAxes>& axes
   const double top = title.empty() ? 12 : kTitleHeight;
   const double height = top + static_cast<double>(axes.size()) * (kPlotHeight + kBelow);
   std::string out = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' role='img'>\n"
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
+      "role='img'>\n"
       "<title>{2}</title>\n"
       "<style>text{{font:12px system-ui,sans-serif;fill:#222}}.label{{font-size:13px}}"
       ".title{{font-size:16px;font-weight:600}}.grid{{stroke:#ccc}}.minor{{stroke:#eee}}"
@@ -240,7 +265,8 @@ std::string svgFigure(const std::string& title, const std::vector<SvgAxes>& axes
       number(width), number(height), escaped(title));
   if (!title.empty()) out += textElement(kLeft, 25, "start", title, "class='title'");
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    out += axesElement(axes[i], top + static_cast<double>(i) * (kPlotHeight + kBelow), static_cast<int>(i));
+    out += axesElement(axes[i], top + static_cast<double>(i) * (kPlotHeight + kBelow),
+                       static_cast<int>(i));
   }
   return out + "</svg>\n";
 }

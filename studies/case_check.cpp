@@ -21,8 +21,9 @@ void checkMetricNames(const Study& study, const std::set<std::string>& known) {
   }
   for (const StudyAxis& axis : study.axes) {
     if (known.count(axis.name) == 0) continue;
-    throw InputError(fmt::format("{}: an axis is called '{}', as a metric of the runs; give it another name",
-                                 toText(study.tree.where()), axis.name));
+    throw InputError(
+        fmt::format("{}: an axis is called '{}', as a metric of the runs; give it another name",
+                    toText(study.tree.where()), axis.name));
   }
 }
 

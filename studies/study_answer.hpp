@@ -16,8 +16,9 @@ std::vector<std::string> studyAnswer(const Study& study, const StudyView& view);
 /// nothing to compare: no curves, or none that crosses the level.
 std::vector<std::string> studyComparison(const Study& study, const StudyView& view);
 
-/// Each metric of study.report over the runs that did not fall: where its median is least and largest; or,
-/// where the view's axis has words, its median at each step and the steps that change it for certain.
+/// Each metric of study.report over the runs that did not fall: where its median is least and
+/// largest; or, where the view's axis has words, its median at each step and the steps that change
+/// it for certain.
 std::vector<std::string> studyMetrics(const Study& study, const StudyView& view);
 
 }  // namespace ballbot

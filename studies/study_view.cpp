@@ -80,8 +80,9 @@ std::optional<MetricSpread> StudyCurve::Point::spread(const std::string& metric)
 std::string curveLabel(const StudyView& view, const StudyCurve& curve) {
   if (!view.curves) return "all";
   const auto& options = view.curves->options;
-  const bool numbers = std::all_of(options.begin(), options.end(),
-                                   [](const AxisOption& option) { return option.number.has_value(); });
+  const bool numbers = std::all_of(options.begin(), options.end(), [](const AxisOption& option) {
+    return option.number.has_value();
+  });
   if (!numbers || options.empty()) return curve.name;
   const std::string& unit = view.curves->unit;
   return fmt::format("{} {}{}{}", view.curves->name, curve.name, unit.empty() ? "" : " ", unit);

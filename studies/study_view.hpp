@@ -53,7 +53,8 @@ struct StudyView {
   std::vector<StudyPanel> panels;
 };
 
-/// What a curve is called: its label, with axis and unit where that is a number; "all" if there is but one.
+/// What a curve is called: its label, with axis and unit where that is a number; "all" if there is
+/// but one.
 std::string curveLabel(const StudyView& view, const StudyCurve& curve);
 
 /// By study.report; where it leaves things open, the numeric axis with the most options is drawn

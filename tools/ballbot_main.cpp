@@ -37,7 +37,8 @@ int main(int argc, char** argv) {
   prepareStandardStreams();
   CLI::App program{
       "ballbot: co-simulation of a robot that balances on a ball.\n"
-      "A high-fidelity plant and a controller, each a process of its own, step each other over LCM;\n"
+      "A high-fidelity plant and a controller, each a process of its own, step each other over "
+      "LCM;\n"
       "the same scenario gives the same bytes every time."};
   program.name("ballbot");
   program.set_version_flag("--version", "ballbot " BALLBOT_VERSION);
@@ -45,8 +46,10 @@ int main(int argc, char** argv) {
   program.footer(
       "Start with:\n"
       "  ballbot run configs/scenarios/balance.yaml\n"
-      "Exit codes: 0 passed, 1 a requirement was missed, 2 bad input, 3 a participant was lost, or a\n"
-      "check of the bench fired, 4 output could not be written, 5 a drive of the bench has not said\n"
+      "Exit codes: 0 passed, 1 a requirement was missed, 2 bad input, 3 a participant was lost, or "
+      "a\n"
+      "check of the bench fired, 4 output could not be written, 5 a drive of the bench has not "
+      "said\n"
       "that its torque is off, 130 interrupted.");
 
   ExitCode result = ExitCode::kPassed;

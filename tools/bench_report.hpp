@@ -23,7 +23,8 @@ nlohmann::ordered_json realtimeJson(const RealtimeRunner& runner,
                                     const KernelFloor::Result* before = nullptr,
                                     const KernelFloor::Result* meanwhile = nullptr);
 
-/// The two above for people: a few lines, and in real time a table and histograms. @param report as they gave it
+/// The two above for people: a few lines, and in real time a table and histograms. @param report as
+/// they gave it
 std::string benchText(const nlohmann::ordered_json& report);
 
 /// What `hil --check` found, as JSON and as a table.

@@ -69,10 +69,12 @@ std::string csvText(const LoopAnalysis& a) {
       "wheel_loaded_dB,wheel_loaded_deg,arm_blocked_dB,arm_blocked_deg,loop_gain_ideal,loop_gain,"
       "distance_ideal,distance\n";
   for (const LoopAnalysis::Sample& s : a.samples) {
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", inHertz(s.omega), std::abs(s.shaping),
-                       phaseDegrees(s.shaping), s.weight, inDecibel(s.wheel_blocked), phaseDegrees(s.wheel_blocked),
-                       inDecibel(s.wheel_loaded), phaseDegrees(s.wheel_loaded), inDecibel(s.arm_blocked),
-                       phaseDegrees(s.arm_blocked), s.loop_gain_ideal, s.loop_gain, s.distance_ideal, s.distance);
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", inHertz(s.omega),
+                       std::abs(s.shaping), phaseDegrees(s.shaping), s.weight,
+                       inDecibel(s.wheel_blocked), phaseDegrees(s.wheel_blocked),
+                       inDecibel(s.wheel_loaded), phaseDegrees(s.wheel_loaded),
+                       inDecibel(s.arm_blocked), phaseDegrees(s.arm_blocked), s.loop_gain_ideal,
+                       s.loop_gain, s.distance_ideal, s.distance);
   }
   return out;
 }
@@ -83,52 +85,58 @@ std::string milliseconds(double seconds) {
 
 std::string marginsRow(const char* name, const LoopMargins& m) {
   const std::string gains =
-      std::isfinite(m.wheel_gain_high) ? fmt::format("{:.2g} to {:.3g}", m.wheel_gain_low, m.wheel_gain_high)
-                                       : fmt::format("from {:.2g}", m.wheel_gain_low);
+      std::isfinite(m.wheel_gain_high)
+          ? fmt::format("{:.2g} to {:.3g}", m.wheel_gain_low, m.wheel_gain_high)
+          : fmt::format("from {:.2g}", m.wheel_gain_low);
   return fmt::format("  {:<22} {:>8} {:>10.1f} {:>10.2f} {:>14.2f} {:>10} {:>10} {:>14}\n", name,
                      m.stable ? "yes" : "NO", m.crossover, inHertz(m.crossover), m.distance,
-                     milliseconds(m.delay_margin), m.stable ? milliseconds(m.wheel_delay_margin) : "",
-                     m.stable ? gains : "");
+                     milliseconds(m.delay_margin),
+                     m.stable ? milliseconds(m.wheel_delay_margin) : "", m.stable ? gains : "");
 }
 
 std::string tableText(const Scenario& scenario, const LoopAnalysis& a) {
   const double R = a.torque_weight[0];
   std::string out = fmt::format(
-      "{}: wheel torques weighted {:g} up to {:.0f} rad/s, {:g} beyond {:.0f} rad/s\n\n", scenario.name, R,
-      a.shaping.zero, R * a.shaping.rho() * a.shaping.rho(), a.shaping.pole);
-  out += fmt::format("  {:>9} {:>9} {:>9} {:>16} {:>16} {:>10} {:>10} {:>8}\n", "frequency", "shaping", "weight",
-                     "drive, blocked", "drive, loaded", "loop gain", "with drives", "|1+L|");
-  out += fmt::format("  {:>9} {:>9} {:>9} {:>16} {:>16} {:>10} {:>10} {:>8}\n", "Hz", "|r|", "R |r|^2", "dB, deg",
-                     "dB, deg", "ideal", "", "");
+      "{}: wheel torques weighted {:g} up to {:.0f} rad/s, {:g} beyond {:.0f} rad/s\n\n",
+      scenario.name, R, a.shaping.zero, R * a.shaping.rho() * a.shaping.rho(), a.shaping.pole);
+  out +=
+      fmt::format("  {:>9} {:>9} {:>9} {:>16} {:>16} {:>10} {:>10} {:>8}\n", "frequency", "shaping",
+                  "weight", "drive, blocked", "drive, loaded", "loop gain", "with drives", "|1+L|");
+  out += fmt::format("  {:>9} {:>9} {:>9} {:>16} {:>16} {:>10} {:>10} {:>8}\n", "Hz", "|r|",
+                     "R |r|^2", "dB, deg", "dB, deg", "ideal", "", "");
   std::size_t next = 0;
   for (const double f : kTableHz) {
     while (next + 1 < a.samples.size() && inHertz(a.samples[next].omega) < f * (1 - 1e-9)) ++next;
     const LoopAnalysis::Sample& s = a.samples[next];
-    out += fmt::format("  {:>9.3g} {:>9.3f} {:>9.3g} {:>8.1f} {:>7.0f} {:>8.1f} {:>7.0f} {:>10.3g} {:>10.3g} {:>8.2f}\n",
-                       inHertz(s.omega), std::abs(s.shaping), s.weight, inDecibel(s.wheel_blocked),
-                       phaseDegrees(s.wheel_blocked), inDecibel(s.wheel_loaded), phaseDegrees(s.wheel_loaded),
-                       s.loop_gain_ideal, s.loop_gain, s.distance);
+    out += fmt::format(
+        "  {:>9.3g} {:>9.3f} {:>9.3g} {:>8.1f} {:>7.0f} {:>8.1f} {:>7.0f} {:>10.3g} {:>10.3g} "
+        "{:>8.2f}\n",
+        inHertz(s.omega), std::abs(s.shaping), s.weight, inDecibel(s.wheel_blocked),
+        phaseDegrees(s.wheel_blocked), inDecibel(s.wheel_loaded), phaseDegrees(s.wheel_loaded),
+        s.loop_gain_ideal, s.loop_gain, s.distance);
   }
   const ActuatorResponse wheel(a.drives.actuators.wheel, a.drives.drive_period);
-  out += fmt::format("\n  drive bandwidth at a wheel, blocked: {:.1f} Hz (wanted {:g}); load {:.3f} kg m^2\n",
-                     inHertz(wheel.bandwidth()), a.drives.actuators.wheel.torque_bandwidth, a.inertia[0]);
+  out += fmt::format(
+      "\n  drive bandwidth at a wheel, blocked: {:.1f} Hz (wanted {:g}); load {:.3f} kg m^2\n",
+      inHertz(wheel.bandwidth()), a.drives.actuators.wheel.torque_bandwidth, a.inertia[0]);
   out += fmt::format("  delay of the torques in the loop: {:.2f} ms\n\n", 1e3 * a.delay);
-  out += fmt::format("  {:<22} {:>8} {:>10} {:>10} {:>14} {:>21} {:>14}\n", "loop at the wheels", "stable", "crossover",
-                     "", "smallest |1+L|", "delay margin, ms", "gain margins");
-  out += fmt::format("  {:<22} {:>8} {:>10} {:>10} {:>14} {:>10} {:>10} {:>14}\n", "", "", "rad/s", "Hz", "",
-                     "all six", "wheels", "wheels");
+  out +=
+      fmt::format("  {:<22} {:>8} {:>10} {:>10} {:>14} {:>21} {:>14}\n", "loop at the wheels",
+                  "stable", "crossover", "", "smallest |1+L|", "delay margin, ms", "gain margins");
+  out += fmt::format("  {:<22} {:>8} {:>10} {:>10} {:>14} {:>10} {:>10} {:>14}\n", "", "", "rad/s",
+                     "Hz", "", "all six", "wheels", "wheels");
   out += marginsRow("ideal drives", a.with_ideal_drives);
   out += marginsRow("series elastic drives", a.with_drives);
   return out;
 }
 
 ExitCode bode(const BodeArguments& arguments) {
-  const RunConfig config =
-      readRunConfig(loadScenario(arguments.scenario, arguments.overrides));
+  const RunConfig config = readRunConfig(loadScenario(arguments.scenario, arguments.overrides));
   const Scenario& scenario = config.scenario;
   std::optional<SimDuration> delay;
   if (arguments.delay_ms) delay = durationFromSeconds(1e-3 * *arguments.delay_ms);
-  const LoopAnalysis analysis = analyseLoop(config, kSimStart + durationFromSeconds(arguments.at_s), delay);
+  const LoopAnalysis analysis =
+      analyseLoop(config, kSimStart + durationFromSeconds(arguments.at_s), delay);
   if (!arguments.csv.empty()) writeTextFile(arguments.csv, csvText(analysis));
   if (!arguments.out.empty()) writeTextFile(arguments.out, bodeFigure(scenario.name, analysis));
   if (arguments.json) {
@@ -143,17 +151,22 @@ ExitCode bode(const BodeArguments& arguments) {
 
 void addBodeCommand(CLI::App& program, ExitCode& result) {
   CLI::App* command = program.add_subcommand(
-      "bode", "Show shaping filter, actuator response and loop crossover of a scenario's balancing law");
+      "bode",
+      "Show shaping filter, actuator response and loop crossover of a scenario's balancing law");
   const auto a = std::make_shared<BodeArguments>();
   command->add_option("scenario", a->scenario, "Scenario file")->required();
-  command->add_option("--set", a->overrides, "path=value: change one value of the scenario; repeatable")
+  command
+      ->add_option("--set", a->overrides,
+                   "path=value: change one value of the scenario; repeatable")
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
   command->add_option("--at-s", a->at_s, "Time at which the tasks' weights are read [s]")
       ->check(CLI::Range(0.0, 1e5))
       ->capture_default_str();
-  command->add_option("--delay-ms", a->delay_ms, "Delay of the torques in the loop instead of the scenario's [ms]")
+  command
+      ->add_option("--delay-ms", a->delay_ms,
+                   "Delay of the torques in the loop instead of the scenario's [ms]")
       ->check(CLI::Range(0.0, 1000.0));
   command->add_option("--csv", a->csv, "File for all curves as CSV");
   command->add_option("--out", a->out, "File for the picture (SVG)");
@@ -161,7 +174,8 @@ void addBodeCommand(CLI::App& program, ExitCode& result) {
   command->footer(
       "Examples:\n"
       "  ballbot bode configs/scenarios/balance.yaml --out bode.svg\n"
-      "  ballbot bode configs/scenarios/push.yaml --set controller.mpc.wheel_shaping={actuator_bandwidth_Hz: 10}\n"
+      "  ballbot bode configs/scenarios/push.yaml --set "
+      "controller.mpc.wheel_shaping={actuator_bandwidth_Hz: 10}\n"
       "docs/theory/loop.md says how the numbers are made.\n"
       "Exit codes: 0 written, 2 bad input, 4 output could not be written.");
   command->callback([&result, a] { result = bode(*a); });

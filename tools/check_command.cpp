@@ -84,7 +84,8 @@ ExitCode checkRun(const CheckArguments& arguments) {
   options.start = readStart(original);
   options.stop = interruptFlag();
   options.progress = [&](SimTime now) {
-    if (toNs(now) % 10'000'000 == 0) progress.update(toSeconds(now) / toSeconds(scenario.duration), "");
+    if (toNs(now) % 10'000'000 == 0)
+      progress.update(toSeconds(now) / toSeconds(scenario.duration), "");
   };
   const RunFolder again = runExperiment(scenario, scratch.path(), options).folder;
   progress.finish();
@@ -115,11 +116,14 @@ ExitCode checkRun(const CheckArguments& arguments) {
 }  // namespace
 
 void addCheckCommand(CLI::App& program, ExitCode& result) {
-  CLI::App* command = program.add_subcommand("check", "Run a run folder again and say whether it is identical");
+  CLI::App* command =
+      program.add_subcommand("check", "Run a run folder again and say whether it is identical");
   const auto a = std::make_shared<CheckArguments>();
   command->add_option("run", a->run, "Run folder")->required();
-  command->add_option("--seed", a->seed, "Run again with another seed, to see where noise first shows");
-  command->add_flag("--in-process", a->in_process, "Run again in one process; the bits must be the same");
+  command->add_option("--seed", a->seed,
+                      "Run again with another seed, to see where noise first shows");
+  command->add_flag("--in-process", a->in_process,
+                    "Run again in one process; the bits must be the same");
   command->add_flag("--json", a->json, "Print as JSON");
   command->add_flag("--quiet", a->quiet, "No progress on stderr");
   command->footer(

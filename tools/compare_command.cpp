@@ -53,7 +53,8 @@ ExitCode compareFolders(const CompareArguments& arguments) {
 }  // namespace
 
 void addCompareCommand(CLI::App& program, ExitCode& result) {
-  CLI::App* command = program.add_subcommand("compare", "Say where two runs differ first, and their metrics");
+  CLI::App* command =
+      program.add_subcommand("compare", "Say where two runs differ first, and their metrics");
   const auto a = std::make_shared<CompareArguments>();
   command->add_option("first", a->a, "Run folder")->required();
   command->add_option("second", a->b, "Run folder")->required();

@@ -15,9 +15,12 @@ namespace {
 
 const char* word(MachineCheck::Level level) {
   switch (level) {
-    case MachineCheck::Level::kOk: return "ok";
-    case MachineCheck::Level::kWarning: return "warning";
-    case MachineCheck::Level::kBroken: return "broken";
+    case MachineCheck::Level::kOk:
+      return "ok";
+    case MachineCheck::Level::kWarning:
+      return "warning";
+    case MachineCheck::Level::kBroken:
+      return "broken";
   }
   return "?";
 }
@@ -31,7 +34,8 @@ ExitCode doctor(bool json) {
     nlohmann::ordered_json out;
     out["healthy"] = !broken;
     for (const MachineCheck& c : checks) {
-      out["checks"].push_back({{"name", c.name}, {"level", word(c.level)}, {"found", c.found}, {"mend", c.mend}});
+      out["checks"].push_back(
+          {{"name", c.name}, {"level", word(c.level)}, {"found", c.found}, {"mend", c.mend}});
     }
     fmt::print("{}\n", jsonText(out));
   } else {
@@ -49,12 +53,15 @@ void addDoctorCommand(CLI::App& program, ExitCode& result) {
   CLI::App* command = program.add_subcommand("doctor", "Look at what runs need of this machine");
   const auto realtime = std::make_shared<RealtimeDoctorOptions>();
   const auto real_time = std::make_shared<bool>(false);
-  command->add_flag("--real-time", *real_time,
-                    "Look at what makes a bench's loop late instead, and measure what it is worth here");
-  command->add_option("--core", realtime->core,
-                      "With it: core of the loop (default: the first isolated one, else the last)")
+  command->add_flag(
+      "--real-time", *real_time,
+      "Look at what makes a bench's loop late instead, and measure what it is worth here");
+  command
+      ->add_option("--core", realtime->core,
+                   "With it: core of the loop (default: the first isolated one, else the last)")
       ->check(CLI::Range(0, 4095));
-  command->add_option("--seconds", realtime->seconds, "With it: length of each of four measurements")
+  command
+      ->add_option("--seconds", realtime->seconds, "With it: length of each of four measurements")
       ->check(CLI::Range(0.05, 3600.0))
       ->capture_default_str();
   command->add_flag("--json", realtime->json, "Print the findings as JSON");
@@ -62,7 +69,8 @@ void addDoctorCommand(CLI::App& program, ExitCode& result) {
       "Example:\n"
       "  ballbot doctor\n"
       "  ballbot doctor --real-time --core 1 --seconds 10\n"
-      "Exit codes: 0 nothing is broken, 1 something makes a real-time loop late (--real-time), 2 bad\n"
+      "Exit codes: 0 nothing is broken, 1 something makes a real-time loop late (--real-time), 2 "
+      "bad\n"
       "input, 3 runs over LCM cannot work.");
   command->callback([&result, realtime, real_time] {
     result = *real_time ? realtimeDoctor(*realtime) : doctor(realtime->json);

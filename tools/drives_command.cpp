@@ -47,7 +47,8 @@ ExitCode emulateDrives(const DrivesArguments& a) {
   const ConfigNode tree = loadBenchTree(a.config, a.overrides);
   const EmulatorConfig config = readEmulatorConfig(tree);
   EmulatedBench bench(config, robotBehind(config, readBenchConfig(tree), a.config));
-  // The rates of a kernel's interface are set where it is set up; this one stands in an error's text.
+  // The rates of a kernel's interface are set where it is set up; this one stands in an error's
+  // text.
   CanBusSettings settings;
   if (config.flexible) settings.data_bitrate_kbps = 5000;
   const auto buses = openEmulatedBuses(

@@ -74,11 +74,13 @@ ExitCode exportRun(const ExportArguments& a) {
 }  // namespace
 
 void addExportCommand(CLI::App& program, ExitCode& result) {
-  CLI::App* command = program.add_subcommand("export", "Write a run's recorded channels as CSV or HDF5");
+  CLI::App* command =
+      program.add_subcommand("export", "Write a run's recorded channels as CSV or HDF5");
   const auto a = std::make_shared<ExportArguments>();
   command->add_option("run", a->run, "Run folder")->required();
   command->add_option("--csv", a->csv_folder, "Folder for one CSV file per channel");
-  command->add_option("--hdf5", a->hdf5_file, "HDF5 file: a group per channel, units as attributes");
+  command->add_option("--hdf5", a->hdf5_file,
+                      "HDF5 file: a group per channel, units as attributes");
   command->add_flag("--json", a->json, "Print what was written as JSON");
   command->footer(
       "Example:\n  ballbot export runs/push-001 --csv /tmp/push --hdf5 /tmp/push.h5\n"

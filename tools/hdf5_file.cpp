@@ -57,7 +57,8 @@ struct Hdf5File::Impl {
   void write(const std::string& name, hid_t stored, hid_t given, hsize_t size, const void* data,
              const std::string& unit) {
     const std::string where = path + ", '" + name + "'";
-    if (H5Lexists(place(), name.c_str(), H5P_DEFAULT) > 0) throw OutputError(where + ": is there already");
+    if (H5Lexists(place(), name.c_str(), H5P_DEFAULT) > 0)
+      throw OutputError(where + ": is there already");
     const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, where);
     const Handle dataset(
         H5Dcreate2(place(), name.c_str(), stored, space, H5P_DEFAULT, untimed, H5P_DEFAULT),

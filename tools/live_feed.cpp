@@ -1,9 +1,9 @@
 #include "tools/live_feed.hpp"
 
 #include "ballbot_msgs/step_reply.hpp"
-#include "model/signal_check.hpp"
 #include "cosim/step_protocol.hpp"
 #include "messages/convert.hpp"
+#include "model/signal_check.hpp"
 
 namespace ballbot {
 namespace {

@@ -1,15 +1,14 @@
 #include "tools/machine_checks.hpp"
 
-#include <sched.h>
-#include <sys/resource.h>
-#include <sys/statvfs.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 
 #include <fmt/format.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
 
 #include "core/error.hpp"
 #include "cosim/lcm_bus.hpp"
@@ -47,7 +46,8 @@ MachineCheck receiveBuffer() {
   long bytes = 0;
   in >> bytes;
   constexpr long kWanted = 2 << 20;
-  MachineCheck check{"receive buffer", Level::kOk, fmt::format("net.core.rmem_max is {} kB", bytes / 1024), ""};
+  MachineCheck check{"receive buffer", Level::kOk,
+                     fmt::format("net.core.rmem_max is {} kB", bytes / 1024), ""};
   if (bytes < kWanted) {
     check.level = Level::kWarning;
     check.found += "; a listener that lags may lose packets (they are sent again, so results hold)";
@@ -61,7 +61,8 @@ MachineCheck processors() {
   CPU_ZERO(&set);
   ::sched_getaffinity(0, sizeof set, &set);
   const int count = CPU_COUNT(&set);
-  MachineCheck check{"processors", Level::kOk, fmt::format("{} usable, pinning to one works", count), ""};
+  MachineCheck check{"processors", Level::kOk,
+                     fmt::format("{} usable, pinning to one works", count), ""};
   const int core = [&] {
     for (int i = 0; i < CPU_SETSIZE; ++i) {
       if (CPU_ISSET(i, &set)) return i;
@@ -73,8 +74,9 @@ MachineCheck processors() {
   CPU_SET(core, &one);
   if (::sched_setaffinity(0, sizeof one, &one) != 0) {
     check.level = Level::kWarning;
-    check.found = fmt::format("{} usable, but pinning is refused: {}; runs are slower, not different", count,
-                              std::strerror(errno));
+    check.found =
+        fmt::format("{} usable, but pinning is refused: {}; runs are slower, not different", count,
+                    std::strerror(errno));
     check.mend = "ballbot run --no-pin SCENARIO";
   }
   ::sched_setaffinity(0, sizeof set, &set);
@@ -87,12 +89,15 @@ MachineCheck realTime() {
   const bool root = ::geteuid() == 0;
   if (root || limit.rlim_cur >= 50) {
     return {"real-time rights", Level::kOk,
-            root ? "running as root" : fmt::format("priorities up to {} allowed", limit.rlim_cur), ""};
+            root ? "running as root" : fmt::format("priorities up to {} allowed", limit.rlim_cur),
+            ""};
   }
-  return {"real-time rights", Level::kWarning,
-          fmt::format("priority limit is {}; only a bench with real drives needs more", limit.rlim_cur),
-          "echo '@realtime - rtprio 98' | sudo tee /etc/security/limits.d/ballbot.conf && sudo usermod -aG "
-          "realtime $USER"};
+  return {
+      "real-time rights", Level::kWarning,
+      fmt::format("priority limit is {}; only a bench with real drives needs more", limit.rlim_cur),
+      "echo '@realtime - rtprio 98' | sudo tee /etc/security/limits.d/ballbot.conf && sudo usermod "
+      "-aG "
+      "realtime $USER"};
 }
 
 MachineCheck lockedMemory() {
@@ -102,16 +107,19 @@ MachineCheck lockedMemory() {
     return {"locked memory", Level::kOk, "the bench may lock its memory", ""};
   }
   return {"locked memory", Level::kWarning,
-          fmt::format("limit is {} kB; only a bench with real drives needs more", limit.rlim_cur / 1024),
+          fmt::format("limit is {} kB; only a bench with real drives needs more",
+                      limit.rlim_cur / 1024),
           "echo '@realtime - memlock unlimited' | sudo tee -a /etc/security/limits.d/ballbot.conf"};
 }
 
 MachineCheck diskSpace() {
   struct statvfs disk {};
   if (::statvfs(".", &disk) != 0) {
-    return {"disk space", Level::kWarning, fmt::format("cannot be read: {}", std::strerror(errno)), ""};
+    return {"disk space", Level::kWarning, fmt::format("cannot be read: {}", std::strerror(errno)),
+            ""};
   }
-  const double free_MB = static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) * 1e-6;
+  const double free_MB =
+      static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) * 1e-6;
   MachineCheck check{"disk space", Level::kOk, fmt::format("{:.0f} MB free here", free_MB), ""};
   if (free_MB < 500) {
     check.level = Level::kWarning;

@@ -53,7 +53,8 @@ const std::vector<PaperExperiment>& paperExperiments() {
        "The same with base and arm controlled apart",
        "With an MPC for the base alone and inverse kinematics with joint PID for the arm, the ball "
        "drifts.",
-       "Both parts know of the payload, but the base not of where the arm is; weights tuned for it.",
+       "Both parts know of the payload, but the base not of where the arm is; weights tuned for "
+       "it.",
        {"rms_ball_excursion_m", "largest_ball_excursion_m", "rms_ee_tracking_error_m",
         "largest_tilt_deg"},
        {"ee", "ball", "tilt"}},
@@ -84,27 +85,34 @@ const std::vector<PaperExperiment>& paperExperiments() {
 
 std::vector<Comparison> compareExperiments(const std::map<std::string, RunResult>& results) {
   std::vector<Comparison> out;
-  const auto with = [&](const char* first, const char* second,
-                        const std::function<Comparison(const RunResult&, const RunResult&)>& judge) {
-    const auto a = results.find(first), b = results.find(second);
-    if (a != results.end() && b != results.end()) out.push_back(judge(a->second, b->second));
-  };
-  with("whole_body_sequence", "whole_body_sequence_decoupled", [](const RunResult& whole, const RunResult& apart) {
-    const double rms = metricOf(whole, "rms_ball_excursion_m"), other = metricOf(apart, "rms_ball_excursion_m");
-    return Comparison{"Controlled apart, the ball strays at least twice as far as the whole body's",
-                      fmt::format("{:.3f} m rms against {:.3f} m", other, rms),
-                      !whole.fell && !apart.fell && other >= 2 * rms};
-  });
+  const auto with =
+      [&](const char* first, const char* second,
+          const std::function<Comparison(const RunResult&, const RunResult&)>& judge) {
+        const auto a = results.find(first), b = results.find(second);
+        if (a != results.end() && b != results.end()) out.push_back(judge(a->second, b->second));
+      };
+  with("whole_body_sequence", "whole_body_sequence_decoupled",
+       [](const RunResult& whole, const RunResult& apart) {
+         const double rms = metricOf(whole, "rms_ball_excursion_m"),
+                      other = metricOf(apart, "rms_ball_excursion_m");
+         return Comparison{
+             "Controlled apart, the ball strays at least twice as far as the whole body's",
+             fmt::format("{:.3f} m rms against {:.3f} m", other, rms),
+             !whole.fell && !apart.fell && other >= 2 * rms};
+       });
   with("disturbance_ball", "disturbance_ee", [](const RunResult& ball, const RunResult& ee) {
     const double still = metricOf(ball, "largest_push_arm_excursion_rad");
     const double busy = metricOf(ee, "largest_push_arm_excursion_rad");
-    return Comparison{"To hold the end-effector against a push the arm moves at least twice as far as to hold the ball",
-                      fmt::format("{:.2f} rad against {:.2f} rad", busy, still), busy >= 2 * still};
+    return Comparison{
+        "To hold the end-effector against a push the arm moves at least twice as far as to hold "
+        "the ball",
+        fmt::format("{:.2f} rad against {:.2f} rad", busy, still), busy >= 2 * still};
   });
   with("door_5N", "door_10N", [](const RunResult& five, const RunResult& ten) {
     const double small = metricOf(five, "push_lean_deg"), large = metricOf(ten, "push_lean_deg");
     return Comparison{"The lean grows with the force asked of the door",
-                      fmt::format("{:.2f} deg at 5 N, {:.2f} deg at 10 N", small, large), small > 0 && large > small};
+                      fmt::format("{:.2f} deg at 5 N, {:.2f} deg at 10 N", small, large),
+                      small > 0 && large > small};
   });
   return out;
 }

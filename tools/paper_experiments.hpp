@@ -12,10 +12,10 @@ namespace ballbot {
 struct PaperExperiment {
   std::string scenario;  ///< file of that name in configs/scenarios
   std::string title;
-  std::string paper;  ///< what the paper shows, in our words
-  std::string here;   ///< what was changed for the simulation, and why
+  std::string paper;                 ///< what the paper shows, in our words
+  std::string here;                  ///< what was changed for the simulation, and why
   std::vector<std::string> metrics;  ///< the numbers that matter
-  std::vector<std::string> panels;   ///< of its picture: ball, ee, ee_angles, tilt, arm, force, door
+  std::vector<std::string> panels;  ///< of its picture: ball, ee, ee_angles, tilt, arm, force, door
 };
 
 /// All of them, in the paper's order.

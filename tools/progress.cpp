@@ -1,12 +1,11 @@
 #include "tools/progress.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace ballbot {
 namespace {
@@ -16,7 +15,9 @@ constexpr auto kRedrawPeriod = std::chrono::milliseconds(50);
 
 std::string remaining(double seconds) {
   if (seconds < 60) return fmt::format("{:.0f} s left", std::max(1.0, seconds));
-  if (seconds < 3600) return fmt::format("{:.0f} min {:02.0f} s left", std::floor(seconds / 60), std::fmod(seconds, 60));
+  if (seconds < 3600)
+    return fmt::format("{:.0f} min {:02.0f} s left", std::floor(seconds / 60),
+                       std::fmod(seconds, 60));
   return fmt::format("{:.1f} h left", seconds / 3600);
 }
 

@@ -32,11 +32,13 @@ std::vector<const PaperExperiment*> chosen(const std::vector<std::string>& only)
   std::vector<std::string> names;
   for (const PaperExperiment& e : paperExperiments()) {
     names.push_back(e.scenario);
-    if (only.empty() || std::find(only.begin(), only.end(), e.scenario) != only.end()) out.push_back(&e);
+    if (only.empty() || std::find(only.begin(), only.end(), e.scenario) != only.end())
+      out.push_back(&e);
   }
   for (const std::string& name : only) {
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      throw InputError(fmt::format("--only {}: no such experiment; there are: {}", name, fmt::join(names, ", ")));
+      throw InputError(fmt::format("--only {}: no such experiment; there are: {}", name,
+                                   fmt::join(names, ", ")));
     }
   }
   return out;
@@ -48,13 +50,16 @@ nlohmann::ordered_json spreadJson(const SeedSpread& spread) {
   j["passed"] = spread.passed();
   j["missed"] = spread.missed();
   for (const auto& [name, m] : spread.metrics()) {
-    j["metrics"][name] = {{"least", m.least}, {"median", m.median}, {"largest", m.largest}, {"count", m.count}};
+    j["metrics"][name] = {
+        {"least", m.least}, {"median", m.median}, {"largest", m.largest}, {"count", m.count}};
   }
   return j;
 }
 
-nlohmann::ordered_json toJson(const std::vector<Scenario>& scenarios, const std::vector<ReproducedExperiment>& done,
-                              const std::vector<Comparison>& comparisons, bool passed, const std::string& page) {
+nlohmann::ordered_json toJson(const std::vector<Scenario>& scenarios,
+                              const std::vector<ReproducedExperiment>& done,
+                              const std::vector<Comparison>& comparisons, bool passed,
+                              const std::string& page) {
   nlohmann::ordered_json j;
   j["passed"] = passed;
   j["page"] = page;
@@ -67,33 +72,36 @@ nlohmann::ordered_json toJson(const std::vector<Scenario>& scenarios, const std:
   }
   j["comparisons"] = nlohmann::ordered_json::array();
   for (const Comparison& c : comparisons) {
-    j["comparisons"].push_back({{"claim", c.claim}, {"measured", c.measured}, {"passed", c.passed}});
+    j["comparisons"].push_back(
+        {{"claim", c.claim}, {"measured", c.measured}, {"passed", c.passed}});
   }
   return j;
 }
 
-std::string tableText(const std::vector<ReproducedExperiment>& done, const std::vector<Comparison>& comparisons,
-                      const std::string& page) {
+std::string tableText(const std::vector<ReproducedExperiment>& done,
+                      const std::vector<Comparison>& comparisons, const std::string& page) {
   std::string out;
   for (const ReproducedExperiment& e : done) {
-    out += fmt::format("{:<32} {:<8} {}\n", e.experiment->scenario, e.result->passed ? "passed" : "MISSED",
-                       e.result->trajectory_digest);
+    out += fmt::format("{:<32} {:<8} {}\n", e.experiment->scenario,
+                       e.result->passed ? "passed" : "MISSED", e.result->trajectory_digest);
     for (const VerdictRow& row : e.result->verdicts) {
       if (row.passed) continue;
-      out += fmt::format("  {} is {}, must be {}\n", row.metric, row.measured ? fmt::format("{:.4g}", row.value) : "none", row.limit);
+      out += fmt::format("  {} is {}, must be {}\n", row.metric,
+                         row.measured ? fmt::format("{:.4g}", row.value) : "none", row.limit);
     }
   }
   for (const ReproducedExperiment& e : done) {
     if (e.spread.by_seed.empty()) continue;
-    out += fmt::format("{}, seeds 1 to {}: {} passed\n", e.experiment->scenario, e.spread.by_seed.size(), e.spread.passed());
+    out += fmt::format("{}, seeds 1 to {}: {} passed\n", e.experiment->scenario,
+                       e.spread.by_seed.size(), e.spread.passed());
     for (const std::string& line : e.spread.missed()) out += fmt::format("  {}\n", line);
     const auto metrics = e.spread.metrics();
     for (const VerdictRow& row : e.result->verdicts) {
       const auto at = metrics.find(row.metric);
       if (at == metrics.end()) continue;
       const MetricRange& m = at->second;
-      out += fmt::format("  {:<32} {:>9.4g} to {:<9.4g} median {:<9.4g} must be {}\n", row.metric, m.least, m.largest, m.median,
-                         row.limit);
+      out += fmt::format("  {:<32} {:>9.4g} to {:<9.4g} median {:<9.4g} must be {}\n", row.metric,
+                         m.least, m.largest, m.median, row.limit);
     }
   }
   for (const Comparison& c : comparisons) {
@@ -103,10 +111,12 @@ std::string tableText(const std::vector<ReproducedExperiment>& done, const std::
 }
 
 /// One for each experiment, or none where one seed is enough.
-std::vector<SeedSpread> spreads(const ReproduceArguments& a, const std::vector<const PaperExperiment*>& experiments) {
+std::vector<SeedSpread> spreads(const ReproduceArguments& a,
+                                const std::vector<const PaperExperiment*>& experiments) {
   if (a.seeds == 1) return std::vector<SeedSpread>(experiments.size());
   std::vector<std::string> files;
-  for (const PaperExperiment* e : experiments) files.push_back(a.scenarios + "/" + e->scenario + ".yaml");
+  for (const PaperExperiment* e : experiments)
+    files.push_back(a.scenarios + "/" + e->scenario + ".yaml");
   Progress progress("seeds", a.quiet);
   SeedSpreadOptions options;
   options.seeds = a.seeds;
@@ -114,7 +124,8 @@ std::vector<SeedSpread> spreads(const ReproduceArguments& a, const std::vector<c
   options.scratch = a.out + "/seeds";
   options.stop = interruptFlag();
   options.progress = [&](std::size_t done, std::size_t count) {
-    progress.update(static_cast<double>(done) / static_cast<double>(count), fmt::format("{} of {} runs", done, count));
+    progress.update(static_cast<double>(done) / static_cast<double>(count),
+                    fmt::format("{} of {} runs", done, count));
   };
   std::vector<SeedSpread> out = runSeeds(files, a.overrides, options);
   progress.finish();
@@ -123,7 +134,8 @@ std::vector<SeedSpread> spreads(const ReproduceArguments& a, const std::vector<c
 
 ExitCode reproduce(const ReproduceArguments& a) {
   const std::vector<const PaperExperiment*> experiments = chosen(a.only);
-  // All are read before the first is run: a mistake in the last should not cost the time of all others.
+  // All are read before the first is run: a mistake in the last should not cost the time of all
+  // others.
   std::vector<Scenario> scenarios;
   double total_s = 0;
   for (const PaperExperiment* e : experiments) {
@@ -146,13 +158,15 @@ ExitCode reproduce(const ReproduceArguments& a) {
     options.progress = [&](SimTime now) {
       if (toNs(now) % 10'000'000 != 0) return;
       progress.update((done_s + toSeconds(now)) / total_s,
-                      fmt::format("{} of {}: {} {:.1f} of {:g} s", i + 1, experiments.size(), scenario.name, toSeconds(now),
-                                  toSeconds(scenario.duration)));
+                      fmt::format("{} of {}: {} {:.1f} of {:g} s", i + 1, experiments.size(),
+                                  scenario.name, toSeconds(now), toSeconds(scenario.duration)));
     };
-    const auto [at, inserted] = results.emplace(experiments[i]->scenario, runExperiment(scenario, a.out + "/" + scenario.name, options));
+    const auto [at, inserted] = results.emplace(
+        experiments[i]->scenario, runExperiment(scenario, a.out + "/" + scenario.name, options));
     done_s += toSeconds(scenario.duration);
     const RunResult& result = at->second;
-    done.push_back({experiments[i], &result, reproductionFigure(scenario, result.folder.logFile(), experiments[i]->panels),
+    done.push_back({experiments[i], &result,
+                    reproductionFigure(scenario, result.folder.logFile(), experiments[i]->panels),
                     scenario.name + "/report.html", std::move(spread[i])});
     writeTextFile(a.out + "/" + scenario.name + ".svg", done.back().figure);
   }
@@ -161,7 +175,8 @@ ExitCode reproduce(const ReproduceArguments& a) {
   const std::vector<Comparison> comparisons = compareExperiments(results);
   bool passed = true;
   for (const ReproducedExperiment& e : done) {
-    passed = passed && e.result->passed && e.spread.passed() == static_cast<int>(e.spread.by_seed.size());
+    passed = passed && e.result->passed &&
+             e.spread.passed() == static_cast<int>(e.spread.by_seed.size());
   }
   for (const Comparison& c : comparisons) passed = passed && c.passed;
   const std::string page = a.out + "/index.html";
@@ -177,23 +192,33 @@ ExitCode reproduce(const ReproduceArguments& a) {
 }  // namespace
 
 void addReproduceCommand(CLI::App& program, ExitCode& result) {
-  CLI::App* command = program.add_subcommand("reproduce", "Repeat the paper's experiments and write one page about them");
+  CLI::App* command = program.add_subcommand(
+      "reproduce", "Repeat the paper's experiments and write one page about them");
   const auto a = std::make_shared<ReproduceArguments>();
   command->add_option("--only", a->only, "Only the experiment of this name; repeatable")
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
-  command->add_option("--out", a->out, "Folder for the page and the run folders")->capture_default_str();
-  command->add_option("--scenarios", a->scenarios, "Folder of the scenario files")->capture_default_str();
-  command->add_option("--set", a->overrides, "path=value: change one value of every scenario; repeatable")
+  command->add_option("--out", a->out, "Folder for the page and the run folders")
+      ->capture_default_str();
+  command->add_option("--scenarios", a->scenarios, "Folder of the scenario files")
+      ->capture_default_str();
+  command
+      ->add_option("--set", a->overrides,
+                   "path=value: change one value of every scenario; repeatable")
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
-  command->add_option("--seeds", a->seeds, "Also run each with seeds 1 to N: how many pass, and how far their numbers spread")
+  command
+      ->add_option(
+          "--seeds", a->seeds,
+          "Also run each with seeds 1 to N: how many pass, and how far their numbers spread")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command->add_option("--jobs", a->jobs, "With --seeds: runs at once (default: one per processor)")->check(CLI::Range(1, 4096));
-  command->add_flag("--in-process", a->in_process, "Controller and plant in one process; same bits, no LCM");
+  command->add_option("--jobs", a->jobs, "With --seeds: runs at once (default: one per processor)")
+      ->check(CLI::Range(1, 4096));
+  command->add_flag("--in-process", a->in_process,
+                    "Controller and plant in one process; same bits, no LCM");
   command->add_flag("--json", a->json, "Print verdicts and metrics as JSON");
   command->add_flag("--quiet", a->quiet, "No progress on stderr");
   command->footer(
@@ -201,7 +226,8 @@ void addReproduceCommand(CLI::App& program, ExitCode& result) {
       "  ballbot reproduce\n"
       "  ballbot reproduce --only disturbance_ball --only disturbance_ee --out /tmp/pushes --json\n"
       "  ballbot reproduce --seeds 20 --jobs 2 --json\n"
-      "Exit codes: 0 all passed, 1 a requirement was missed, 2 bad input, 3 a participant was lost,\n"
+      "Exit codes: 0 all passed, 1 a requirement was missed, 2 bad input, 3 a participant was "
+      "lost,\n"
       "4 output could not be written, 130 interrupted.");
   command->callback([&result, a] { result = reproduce(*a); });
 }

@@ -23,9 +23,7 @@ constexpr std::size_t kSamples = 400;
 class Panels {
  public:
   Panels(const RunConfig& config, const RunLog& log)
-      : log_(log),
-        tables_(logTables(log)),
-        reference_(config.reference()) {
+      : log_(log), tables_(logTables(log)), reference_(config.reference()) {
     for (const Push& push : config.plant.plant.pushes) {
       shaded_.push_back({toSeconds(push.start), toSeconds(push.end())});
     }

@@ -17,8 +17,8 @@ struct ReproducedExperiment {
   SeedSpread spread;        ///< empty where one seed was enough
 };
 
-/// One page that opens offline: a table of verdicts, then per experiment what the paper shows beside
-/// what came out, with its picture and a link to its report.
+/// One page that opens offline: a table of verdicts, then per experiment what the paper shows
+/// beside what came out, with its picture and a link to its report.
 std::string reproductionPage(const std::vector<ReproducedExperiment>& experiments,
                              const std::vector<Comparison>& comparisons);
 

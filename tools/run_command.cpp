@@ -27,7 +27,8 @@ struct RunArguments {
   std::string lcm_url, channel = "BALLBOT";
   std::vector<std::string> overrides;
   std::optional<std::uint64_t> seed;
-  bool live = false, in_process = false, no_pin = false, no_report = false, json = false, quiet = false;
+  bool live = false, in_process = false, no_pin = false, no_report = false, json = false,
+       quiet = false;
   double replace_plant_at_s = -1;
   double patience_s = 10;
 };
@@ -37,8 +38,9 @@ Checkpoint startFrom(const RunPoint& from, const Scenario& changed, bool quiet) 
   const RunFolder run = RunFolder::open(from.run);
   const Scenario original = loadScenario(run.scenarioFile());
   if (from.time >= kSimStart + changed.duration) {
-    throw InputError(fmt::format("--from is at {:.9g} s, but the run ends at {:.9g} s; try --set duration_s=...",
-                                 toSeconds(from.time), toSeconds(changed.duration)));
+    throw InputError(
+        fmt::format("--from is at {:.9g} s, but the run ends at {:.9g} s; try --set duration_s=...",
+                    toSeconds(from.time), toSeconds(changed.duration)));
   }
   Progress progress("to " + toText(from.time), quiet);
   ReplayOptions replay;
@@ -82,11 +84,13 @@ ExitCode runScenario(const RunArguments& arguments) {
   options.progress = [&](SimTime now) {
     // Every tick asks; a redraw is cheap only if the text is made for those that draw.
     if (toNs(now) % 10'000'000 == 0) {
-      progress.update(toSeconds(now) / duration_s, fmt::format("{:5.2f} of {:g} s", toSeconds(now), duration_s));
+      progress.update(toSeconds(now) / duration_s,
+                      fmt::format("{:5.2f} of {:g} s", toSeconds(now), duration_s));
     }
   };
   if (!arguments.quiet) {
-    options.say = [last = std::chrono::steady_clock::time_point{}](const std::string& text) mutable {
+    options.say = [last =
+                       std::chrono::steady_clock::time_point{}](const std::string& text) mutable {
       const auto now = std::chrono::steady_clock::now();
       if (now - last < std::chrono::seconds(3)) return;
       last = now;
@@ -119,14 +123,19 @@ ExitCode runScenario(const RunArguments& arguments) {
 /// What `run` and `controller` have in common.
 void addSharedOptions(CLI::App* command, const std::shared_ptr<RunArguments>& a) {
   command->add_option("scenario", a->scenario, "Scenario file")->required();
-  command->add_option("--out", a->out, "Run folder to create (default: the next free runs/NAME-NNN)");
-  command->add_option("--set", a->overrides, "path=value: change one value of the scenario; repeatable")
+  command->add_option("--out", a->out,
+                      "Run folder to create (default: the next free runs/NAME-NNN)");
+  command
+      ->add_option("--set", a->overrides,
+                   "path=value: change one value of the scenario; repeatable")
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
   command->add_option("--seed", a->seed, "Seed of every noise source, instead of the scenario's");
   command->add_option("--channel", a->channel, "LCM channel to meet at")->capture_default_str();
-  command->add_option("--patience-s", a->patience_s, "Silence after which the plant counts as lost [s]")
+  command
+      ->add_option("--patience-s", a->patience_s,
+                   "Silence after which the plant counts as lost [s]")
       ->check(CLI::Range(0.1, 1e5))
       ->capture_default_str();
   command->add_flag("--no-pin", a->no_pin, "Do not keep this process on one processor");
@@ -146,17 +155,20 @@ void addRunCommand(CLI::App& program, ExitCode& result) {
       ->add_option("--from", a->from,
                    "RUN@TIME: go on from a moment of a recorded run, with its scenario and --set")
       ->excludes(scenario);
-  CLI::Option* in_process =
-      command->add_flag("--in-process", a->in_process, "Controller and plant in one process; same bits, no LCM");
-  command->add_option("--lcm-url", a->lcm_url,
-                      "Do not start a plant: meet whoever serves at this LCM URL, e.g. ballbot plant");
-  command->add_flag("--live", a->live, "Meet the plant where ballbot view --live listens")->excludes(in_process);
+  CLI::Option* in_process = command->add_flag(
+      "--in-process", a->in_process, "Controller and plant in one process; same bits, no LCM");
+  command->add_option(
+      "--lcm-url", a->lcm_url,
+      "Do not start a plant: meet whoever serves at this LCM URL, e.g. ballbot plant");
+  command->add_flag("--live", a->live, "Meet the plant where ballbot view --live listens")
+      ->excludes(in_process);
   command->add_option("--replace-plant-at", a->replace_plant_at_s,
                       "At this time [s] save the plant, kill its process, continue in a new one");
   command->footer(
       "Examples:\n"
       "  ballbot run configs/scenarios/balance.yaml\n"
-      "  ballbot run configs/scenarios/push.yaml --seed 7 --set plant.fidelity.actuators=ideal --json\n"
+      "  ballbot run configs/scenarios/push.yaml --seed 7 --set plant.fidelity.actuators=ideal "
+      "--json\n"
       "  ballbot run --from runs/push-001@4.2s --set controller.kind=lqr\n"
       "  ballbot run configs/scenarios/push.yaml --lcm-url 'udpm://239.255.76.67:7667?ttl=0'\n"
       "Exit codes: 0 passed, 1 a requirement was missed, 2 bad input, 3 a participant was lost,\n"
@@ -171,7 +183,8 @@ void addControllerCommand(CLI::App& program, ExitCode& result) {
   a->lcm_url = sharedLcmAddress().url;
   a->channel = sharedLcmAddress().channel;
   addSharedOptions(command, a);
-  command->add_option("--lcm-url", a->lcm_url, "LCM URL at which the plant is served")->capture_default_str();
+  command->add_option("--lcm-url", a->lcm_url, "LCM URL at which the plant is served")
+      ->capture_default_str();
   command->footer(
       "Example, two terminals:\n"
       "  ballbot plant configs/scenarios/balance.yaml\n"

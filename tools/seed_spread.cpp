@@ -52,7 +52,8 @@ std::vector<std::string> SeedSpread::missed() const {
   for (std::size_t i = 0; i < by_seed.size(); ++i) {
     const CaseResult& r = by_seed[i];
     if (r.outcome == CaseOutcome::kPassed) continue;
-    out.push_back(fmt::format("seed {}: {}", i + 1, r.reason.empty() ? toText(r.outcome) : r.reason));
+    out.push_back(
+        fmt::format("seed {}: {}", i + 1, r.reason.empty() ? toText(r.outcome) : r.reason));
   }
   return out;
 }

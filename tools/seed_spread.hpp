@@ -29,8 +29,8 @@ struct SeedSpread {
 
 struct SeedSpreadOptions {
   int seeds = 1;
-  int jobs = 1;               ///< runs at once, each in a process of its own
-  std::string scratch;        ///< folder for run folders, which are removed again
+  int jobs = 1;         ///< runs at once, each in a process of its own
+  std::string scratch;  ///< folder for run folders, which are removed again
   const std::atomic<bool>* stop = nullptr;
   std::function<void(std::size_t done, std::size_t count)> progress;
 };

@@ -47,7 +47,8 @@ void viewRun(const ViewArguments& a) {
   if (!fs::is_regular_file(folder / "report.html")) {
     throw InputError(fmt::format(
         "{}: no report.html in it; give a run folder such as runs/balance-001, or --live with the "
-        "scenario of a run to come", a.what));
+        "scenario of a run to come",
+        a.what));
   }
   HttpServer server(a.port);
   const auto serveFile = [&](const std::string& path, const char* name, const char* type) {
@@ -71,21 +72,26 @@ void viewLive(const ViewArguments& a) {
   server.onGet("/scene.json", "application/json", [text = scene.description()] { return text; });
   LiveFeed feed({a.lcm_url, a.channel}, std::move(scene));
   server.onEvents("/events", feed);
-  serveUntilInterrupted(server, fmt::format("runs of {} on {}", config.scenario.name, a.lcm_url), a.json);
+  serveUntilInterrupted(server, fmt::format("runs of {} on {}", config.scenario.name, a.lcm_url),
+                        a.json);
 }
 
 }  // namespace
 
 void addViewCommand(CLI::App& program, ExitCode& result) {
-  CLI::App* command = program.add_subcommand("view", "Show a run in the browser: a finished one, or one as it happens");
+  CLI::App* command = program.add_subcommand(
+      "view", "Show a run in the browser: a finished one, or one as it happens");
   const auto a = std::make_shared<ViewArguments>();
-  command->add_option("what", a->what, "Run folder; with --live the scenario of the run")->required();
+  command->add_option("what", a->what, "Run folder; with --live the scenario of the run")
+      ->required();
   command->add_flag("--live", a->live, "Show a run as it happens, heard over LCM");
   command->add_option("--port", a->port, "Port on 127.0.0.1; 0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
-  command->add_option("--lcm-url", a->lcm_url, "With --live: where plant and controller meet")->capture_default_str();
-  command->add_option("--channel", a->channel, "With --live: their LCM channel")->capture_default_str();
+  command->add_option("--lcm-url", a->lcm_url, "With --live: where plant and controller meet")
+      ->capture_default_str();
+  command->add_option("--channel", a->channel, "With --live: their LCM channel")
+      ->capture_default_str();
   command->add_option("--set", a->overrides, "With --live: path=value, as for the run")
       ->expected(1)
       ->allow_extra_args(false)

@@ -19,11 +19,11 @@ struct EmulatedDriveParameters {
   std::int64_t rated_current_mA = 10'000;       ///< 6075
   /// What that current gives behind the gear.
   std::int64_t rated_current_torque_mNm = 20'000;
-  double sign = 1;                              ///< of all angles and torques against the joint's
-  double offset = 0;                            ///< joint angle at which 6064 is zero [rad]
+  double sign = 1;    ///< of all angles and torques against the joint's
+  double offset = 0;  ///< joint angle at which 6064 is zero [rad]
   /// Real torque over what it is told and says: what a wrong torque constant does to both.
   double torque_share = 1;
-  std::int64_t sdo_delay_ns = 0;                ///< of its SDO server's answers
+  std::int64_t sdo_delay_ns = 0;  ///< of its SDO server's answers
 
   // In what vendors deviate.
   std::string name = "ballbot emulated drive";  ///< 1008

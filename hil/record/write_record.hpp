@@ -14,9 +14,9 @@ struct WrittenRecord {
 };
 
 /// Writes a record into a new folder below `records`: record.json, fault.html, frames.log,
-/// frames.asc, decoded.csv, cycles.csv, digests.txt. Its name is the first check's, or "kept", with the bus
-/// time; a number is added where that is taken, so nothing is overwritten. What cannot be written
-/// leaves the rest as it is. Never throws.
+/// frames.asc, decoded.csv, cycles.csv, digests.txt. Its name is the first check's, or "kept", with
+/// the bus time; a number is added where that is taken, so nothing is overwritten. What cannot be
+/// written leaves the rest as it is. Never throws.
 WrittenRecord writeRecord(const FaultRecord& record, const std::string& records) noexcept;
 
 }  // namespace ballbot

@@ -19,7 +19,8 @@ class CommandGovernorTest : public ::testing::Test {
     schedule_.ball_position_weight = TimedWeight<2>(Eigen::Vector2d::Constant(100));
   }
 
-  static ReducedDynamics::EndEffector tip(const Vector3& p_WE, const Matrix3& R_WE = Matrix3::Identity()) {
+  static ReducedDynamics::EndEffector tip(const Vector3& p_WE,
+                                          const Matrix3& R_WE = Matrix3::Identity()) {
     return {p_WE, R_WE, Vector3::Zero(), Vector3::Zero()};
   }
   /// The governor every 14 ms up to `until`, for a robot that is where it was asked to be.
@@ -109,7 +110,9 @@ TEST_F(CommandGovernorTest, AnOrientationTurnsTheShortWayAtItsSpeedAndArrivesExa
     governor_.update(at(t_), schedule_, x_, tip(Vector3::Zero(), R));
     const Vector3 now = schedule_.ee_orientation.value(t_);
     const Matrix3 reference = turn.reference(rotationFromYawPitchRoll(now[0], now[1], now[2]), 0);
-    EXPECT_LE(logSO3(reference * last.transpose()).norm(), limits_.angle_lead + limits_.angle_speed * 0.015) << t_;
+    EXPECT_LE(logSO3(reference * last.transpose()).norm(),
+              limits_.angle_lead + limits_.angle_speed * 0.015)
+        << t_;
     if (t_ > 0.12 && t_ < 1) EXPECT_LT(yawPitchRollFromRotation(reference)[0], 0);
     last = reference;
     R = turn.anchor;
@@ -122,8 +125,8 @@ TEST_F(CommandGovernorTest, AnOrientationStaysNearTheRobots) {
   schedule_.ee_orientation = TimeSignal<3>(Vector3::Zero());
   schedule_.ee_orientation.step(0.1, {0, 0, 2.5});
   for (; t_ < 6; t_ += 0.014) governor_.update(at(t_), schedule_, x_, tip(Vector3::Zero()));
-  const Matrix3 reference = governor_.commands().ee_orientation.reference(
-      rotationFromYawPitchRoll(0, 0, 2.5), 0);
+  const Matrix3 reference =
+      governor_.commands().ee_orientation.reference(rotationFromYawPitchRoll(0, 0, 2.5), 0);
   EXPECT_NEAR(logSO3(reference).norm(), limits_.angle_lag + limits_.angle_lead, 1e-9);
 }
 
@@ -135,7 +138,8 @@ TEST_F(CommandGovernorTest, ContinuesAfterASaveAsIfNothingWas) {
   governor_.update(at(1.1), schedule_, x_, tip(Vector3::Zero()));
   other.update(at(1.1), schedule_, x_, tip(Vector3::Zero()));
   EXPECT_EQ(governor_.commands().ball_position.anchor, other.commands().ball_position.anchor);
-  EXPECT_EQ(governor_.commands().ball_position.approaching, other.commands().ball_position.approaching);
+  EXPECT_EQ(governor_.commands().ball_position.approaching,
+            other.commands().ball_position.approaching);
   EXPECT_EQ(governor_.cutting(), other.cutting());
 }
 

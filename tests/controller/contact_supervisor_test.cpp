@@ -104,7 +104,8 @@ TEST(ContactSupervision, SaysWhatIsWrong) {
     FAIL() << "was accepted";
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("lost_share is 1.5, must be between 0 and 1"),
-              std::string::npos) << e.what();
+              std::string::npos)
+        << e.what();
   }
 }
 

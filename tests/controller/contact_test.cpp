@@ -16,9 +16,11 @@ constexpr auto kLost = static_cast<std::int8_t>(ContactState::kLost);
 
 /// A push, an upright pose and little motion are asked for; where the ball is does not matter.
 const char* const kPush =
-    "mpc.tasks={contact_force: {weight: 1, reference: {moves: [{at_s: 1, by: [0, 0, 5], over_s: 1}]}},"
+    "mpc.tasks={contact_force: {weight: 1, reference: {moves: [{at_s: 1, by: [0, 0, 5], over_s: "
+    "1}]}},"
     "contact_normal: [-1, 0, 0], ee_orientation: {weight: 20}, yaw: {weight: 20},"
-    "ball_velocity: {weight: 10}, arm_rate: {weight: 1}, base_rate: {weight: 4}, wheel_torque: {weight: 2},"
+    "ball_velocity: {weight: 10}, arm_rate: {weight: 1}, base_rate: {weight: 4}, wheel_torque: "
+    "{weight: 2},"
     "arm_torque: {weight: 0.05}}";
 
 class ContactTest : public testing::Test {

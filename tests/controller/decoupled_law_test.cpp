@@ -6,10 +6,10 @@
 
 #include "controller/rigid_arm.hpp"
 #include "core/error.hpp"
-#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/controller/support/closed_loop.hpp"
-#include "tests/model/robot_fixture.hpp"
 #include "tests/controller/support/make_law.hpp"
+#include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 
 namespace ballbot {
 namespace {
@@ -50,7 +50,8 @@ TEST(ArmInverseKinematics, StaysFiniteAndInsideLimitsWhereThePlaceCannotBeReache
   const ArmInverseKinematics ik(robot, {});
   StateVector x = findEquilibrium(dynamics, robot.nominal_arm).x;
   const Tasks tasks = asking(dynamics, x, {2, 1, 1});
-  for (int i = 0; i < 1000; ++i) x.segment<3>(kArm1) = ik.withinLimits(x.segment<3>(kArm1) + 0.01 * ik.rates(x, tasks));
+  for (int i = 0; i < 1000; ++i)
+    x.segment<3>(kArm1) = ik.withinLimits(x.segment<3>(kArm1) + 0.01 * ik.rates(x, tasks));
   ASSERT_TRUE(x.allFinite());
   for (int i = 0; i < 3; ++i) {
     EXPECT_GE(x[kArm1 + i], robot.arm[i].lower_limit);
@@ -84,7 +85,8 @@ decoupled:
   pid: {stiffness_Nm_per_rad: 100}
 )";
 
-std::unique_ptr<ControlLaw> decoupled(const RobotParameters& robot, const std::string& text = kConfig) {
+std::unique_ptr<ControlLaw> decoupled(const RobotParameters& robot,
+                                      const std::string& text = kConfig) {
   const ConfigNode tree = parseYaml(text, "controller.yaml");
   ConfigReader in(tree);
   return test::makeControlLaw(in, robot);
@@ -155,7 +157,8 @@ TEST(DecoupledLaw, ItsArmIsHeldByItsGravityTorqueWhereverItStands) {
   law->plan(kSimStart, x, JointVector::Zero());
   law->activatePlan();
   law->sample(kSimStart, out);
-  const VelocityVector h = dynamics.nonlinearEffects(x.head<kPositionDim>(), VelocityVector::Zero());
+  const VelocityVector h =
+      dynamics.nonlinearEffects(x.head<kPositionDim>(), VelocityVector::Zero());
   EXPECT_EQ(out.joint_position.tail<3>(), x.segment<3>(kArm1));
   EXPECT_TRUE(out.torque.tail<3>().isApprox(h.tail<3>(), 1e-12));
 }

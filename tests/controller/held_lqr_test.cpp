@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/solver/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/eigenvalues.hpp"
 
 namespace ballbot {
 namespace {
@@ -26,9 +26,7 @@ StateJacobian heldClosedLoop(const ReducedDynamics& dynamics, const LqrSolution&
   return x;
 }
 
-double spectralRadius(const StateJacobian& A) {
-  return eigenvaluesOf(A).cwiseAbs().maxCoeff();
-}
+double spectralRadius(const StateJacobian& A) { return eigenvaluesOf(A).cwiseAbs().maxCoeff(); }
 
 /// The example robot with arm links ten times lighter.
 RobotParameters lightArm() {

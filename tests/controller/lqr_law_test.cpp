@@ -7,8 +7,8 @@
 
 #include "core/error.hpp"
 #include "tests/controller/support/closed_loop.hpp"
-#include "tests/model/robot_fixture.hpp"
 #include "tests/controller/support/make_law.hpp"
+#include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
 namespace {

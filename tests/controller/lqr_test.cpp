@@ -7,11 +7,11 @@
 #include <Eigen/LU>
 #include <gmock/gmock.h>
 
-#include "solver/riccati_equation.hpp"
 #include "core/config_visitor.hpp"
 #include "core/error.hpp"
-#include "tests/solver/support/eigenvalues.hpp"
+#include "solver/riccati_equation.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/eigenvalues.hpp"
 
 namespace ballbot {
 namespace {
@@ -30,9 +30,7 @@ LinearModel linearAt(const ReducedDynamics& dynamics, const Equilibrium& equilib
   return {model.df_dx, model.df_dtau};
 }
 
-double largestRealPart(const MatrixXd& A) {
-  return eigenvaluesOf(A).real().maxCoeff();
-}
+double largestRealPart(const MatrixXd& A) { return eigenvaluesOf(A).real().maxCoeff(); }
 
 /// The closed loop with every torque behind a second-order lag of natural frequency `f_Hz` and a
 /// delay, the latter as a second-order Pade approximation.

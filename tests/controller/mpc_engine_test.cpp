@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "controller/mpc_planner.hpp"
-#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 
 namespace ballbot {
 namespace {
@@ -165,7 +165,8 @@ TEST_F(MpcEngineTest, ASecondSolveOfTheDiscreteEngineDoesNotAllocate) {
   const MpcPolicy seed = seedFor(*engine);
   const auto before = allocationCount();
   ASSERT_TRUE(engine->solve(kSimStart, x0_, seed, 5, first).ok());
-  ASSERT_TRUE(engine->solve(simTimeFromNs(14'000'000), first.stateAt(0.014), first, 1, second).ok());
+  ASSERT_TRUE(
+      engine->solve(simTimeFromNs(14'000'000), first.stateAt(0.014), first, 1, second).ok());
   EXPECT_EQ(allocationCount(), before);
 }
 

@@ -8,9 +8,9 @@
 
 #include "controller/background_mpc_law.hpp"
 #include "core/error.hpp"
-#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/controller/support/closed_loop.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 
 namespace ballbot {
 namespace {
@@ -141,8 +141,8 @@ TEST_F(MpcLawTest, FallsBackToTheLqrWithoutPlansAndReturnsWithThem) {
 TEST_F(MpcLawTest, AProblemThatIsNotFiniteIsRefusedAndTheRobotStaysUp) {
   MpcConfig c = config();
   auto schedule = std::make_shared<TaskSchedule>(*c.schedule);
-  schedule->ball_position.step(
-      1, Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  schedule->ball_position.step(1,
+                               Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
   c.schedule = schedule;
   MpcLaw law(robot_, c);
   const auto run = runClosedLoop(law, tracker(), robot_, atRest(), 5);
@@ -163,8 +163,8 @@ TEST_F(MpcLawTest, AProblemThatIsNotFiniteIsRefusedAndTheRobotStaysUp) {
 TEST_F(MpcLawTest, WithoutAnyPlanTheLqrStandsInFromTheFirstRefusalAndHoldsThePlace) {
   MpcConfig c = config();
   auto schedule = std::make_shared<TaskSchedule>(*c.schedule);
-  schedule->ball_position.step(
-      0, Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  schedule->ball_position.step(0,
+                               Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
   c.schedule = schedule;
   MpcLaw law(robot_, c);
   StateVector x0 = atRest();
@@ -195,8 +195,9 @@ TEST_F(MpcLawTest, PlansFromTheFirstForAnArmThatPointsUpOrIsLight) {
   }
   for (const RobotParameters& robot : {up, light}) {
     robot_ = robot;
-    for (const char* horizon : {"{length_s: 1, step_ms: 20}",
-                                "{length_s: 1, step_ms: 40, fine_length_s: 0.2, fine_step_ms: 10}"}) {
+    for (const char* horizon :
+         {"{length_s: 1, step_ms: 20}",
+          "{length_s: 1, step_ms: 40, fine_length_s: 0.2, fine_step_ms: 10}"}) {
       applyOverride(tree_, std::string("mpc.horizon=") + horizon);
       MpcLaw law(robot, config());
       StateVector x0 = atRest();
@@ -295,7 +296,8 @@ TEST_F(MpcLawTest, NoCallOfTheControlStepAllocates) {
     accepted = law.plan(now, x, joints).accepted && accepted;
     law.activatePlan();
     law.sample(now, sample);
-    accepted = pd.step(sample, x, joints, JointVector::Zero(), command) == TrackStatus::kOk && accepted;
+    accepted =
+        pd.step(sample, x, joints, JointVector::Zero(), command) == TrackStatus::kOk && accepted;
     law.commanded(now, std::chrono::microseconds(400), sample.torque);
   }
   EXPECT_EQ(allocationCount(), before);
@@ -378,7 +380,8 @@ TEST_F(MpcLawTest, APlanCannotActBeyondItsEnd) {
     config();
     FAIL() << "no error";
   } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("fallback_after_ms is 1200, which is beyond the end of a plan"));
+    EXPECT_THAT(e.what(),
+                HasSubstr("fallback_after_ms is 1200, which is beyond the end of a plan"));
   }
 }
 

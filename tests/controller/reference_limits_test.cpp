@@ -34,10 +34,12 @@ class ReferenceLimits : public testing::Test {
 };
 
 TEST_F(ReferenceLimits, AnArmPoseBeyondAStopIsRefused) {
-  EXPECT_EQ(saidOf("arm_position={weight: 5, reference: {moves: [{at_s: 2, by: [0, 0, 0.3]}]}}"), "");
-  EXPECT_THAT(saidOf("arm_position={weight: 5, reference: {moves: [{at_s: 2, by: [0, 0, 2]}]}}"),
-              HasSubstr("arm_position asks at 2 s for 4.171 rad of joint 3 ('arm_3'), must be between "
-                        "0 and 2.6"));
+  EXPECT_EQ(saidOf("arm_position={weight: 5, reference: {moves: [{at_s: 2, by: [0, 0, 0.3]}]}}"),
+            "");
+  EXPECT_THAT(
+      saidOf("arm_position={weight: 5, reference: {moves: [{at_s: 2, by: [0, 0, 2]}]}}"),
+      HasSubstr("arm_position asks at 2 s for 4.171 rad of joint 3 ('arm_3'), must be between "
+                "0 and 2.6"));
 }
 
 TEST_F(ReferenceLimits, ARampIsHeldAgainstThemAtItsEndAndMovesAddUp) {
@@ -47,7 +49,8 @@ TEST_F(ReferenceLimits, ARampIsHeldAgainstThemAtItsEndAndMovesAddUp) {
 }
 
 TEST_F(ReferenceLimits, AHandCanPushAndNotPull) {
-  EXPECT_EQ(saidOf("contact_force={weight: 1, reference: {moves: [{at_s: 2, by: [3, 0, 5]}]}}"), "");
+  EXPECT_EQ(saidOf("contact_force={weight: 1, reference: {moves: [{at_s: 2, by: [3, 0, 5]}]}}"),
+            "");
   EXPECT_THAT(saidOf("contact_force={weight: 1, reference: {moves: [{at_s: 2, by: [0, 0, -5]}]}}"),
               HasSubstr("contact_force asks at 2 s for -5 N along the normal, must be at least 0"));
 }
@@ -59,7 +62,8 @@ TEST_F(ReferenceLimits, AForceBesideItsFrictionConeIsRefused) {
 
 TEST_F(ReferenceLimits, ATorqueLimitBelowWhatStandingStillTakesIsRefused) {
   robot_.arm_torque_limit = 1;
-  EXPECT_THAT(saidOf("preview=false"), HasSubstr("to stand still with the arm at (0, -0.6, 2.171) rad"));
+  EXPECT_THAT(saidOf("preview=false"),
+              HasSubstr("to stand still with the arm at (0, -0.6, 2.171) rad"));
   const ConfigNode lqr_tree = parseYaml("{}", "law.yaml");
   ConfigReader lqr(lqr_tree);
   EXPECT_THROW(LqrLawConfig::read(lqr, robot_), InputError);

@@ -71,10 +71,12 @@ TEST_F(SlqOnRobot, TheCostFallsMonotonicallyFromFiftyRandomStarts) {
     seed(solver);
     std::vector<double> costs;
     const SlqReport<CostTerms> report = solver.converge(problem_, start(i), 400, 1e-9, &costs);
-    EXPECT_EQ(report.status, SlqStatus::kConverged) << "start " << i << ": " << slqStatusName(report.status);
+    EXPECT_EQ(report.status, SlqStatus::kConverged)
+        << "start " << i << ": " << slqStatusName(report.status);
     EXPECT_LT(costs.back(), report.terms.total() + 1e-9);
     for (std::size_t k = 1; k < costs.size(); ++k) {
-      EXPECT_LE(costs[k], costs[k - 1] + 1e-9 * std::abs(costs[k - 1])) << "start " << i << ", " << k;
+      EXPECT_LE(costs[k], costs[k - 1] + 1e-9 * std::abs(costs[k - 1]))
+          << "start " << i << ", " << k;
     }
   }
 }

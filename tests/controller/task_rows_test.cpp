@@ -30,14 +30,13 @@ struct Rows {
          [=](const Point& p) -> Eigen::VectorXd {
            return orientationError(t.R_WE, tip(p).R_WE).e;
          }},
-        {"ee_velocity", [=](const Point& p) -> Eigen::VectorXd { return tip(p).v_WE_W - t.v_WE_W; }},
+        {"ee_velocity",
+         [=](const Point& p) -> Eigen::VectorXd { return tip(p).v_WE_W - t.v_WE_W; }},
         {"ee_rate", [=](const Point& p) -> Eigen::VectorXd { return tip(p).w_WE_W - t.w_WE_W; }},
         {"ball_position",
          [=](const Point& p) -> Eigen::VectorXd { return p.segment<2>(kBallX) - t.ball_position; }},
         {"yaw",
-         [=](const Point& p) -> Eigen::VectorXd {
-           return p.segment<1>(kYaw).array() - t.yaw;
-         }},
+         [=](const Point& p) -> Eigen::VectorXd { return p.segment<1>(kYaw).array() - t.yaw; }},
         {"ball_velocity",
          [=](const Point& p) -> Eigen::VectorXd {
            return p.segment<2>(kNu + kBallVx) - t.ball_velocity;
@@ -57,9 +56,7 @@ struct Rows {
            return p.segment<3>(kU + kJointCount) - t.contact_force_C;
          }},
         {"contact_moment",
-         [=](const Point& p) -> Eigen::VectorXd {
-           return p.tail<3>() - t.contact_moment_C;
-         }}};
+         [=](const Point& p) -> Eigen::VectorXd { return p.tail<3>() - t.contact_moment_C; }}};
     return all.at(name);
   }
   ReducedDynamics dynamics;
@@ -120,7 +117,9 @@ template <int N>
 void setWeight(Eigen::Matrix<double, N, 1>& weight, double w) {
   weight = w * Eigen::Matrix<double, N, 1>::LinSpaced(1, N);
 }
-Eigen::VectorXd weightsOf(double weight, int size) { return Eigen::VectorXd::Constant(size, weight); }
+Eigen::VectorXd weightsOf(double weight, int size) {
+  return Eigen::VectorXd::Constant(size, weight);
+}
 template <int N>
 Eigen::VectorXd weightsOf(const Eigen::Matrix<double, N, 1>& weight, int) {
   return weight;
@@ -169,8 +168,7 @@ void expectRow(const std::string& name, Tasks tasks, const std::function<void(Ta
     expected.gradient.tail<3>() = gradient.tail<3>();
     expected.hessian.bottomRightCorner<3, 3>() = hessian.bottomRightCorner<3, 3>();
   }
-  const double value =
-      with.terms.value[term] - (contact ? 0 : without.terms.value[term]);
+  const double value = with.terms.value[term] - (contact ? 0 : without.terms.value[term]);
   if (name == "wheel_torque") {
     EXPECT_EQ(value, 0);
     return;
@@ -182,13 +180,14 @@ void expectRow(const std::string& name, Tasks tasks, const std::function<void(Ta
 }
 
 TEST(TaskRows, TheKernelIsTheSumOfItsRows) {
-#define BALLBOT_ROW(name, N, unit, term, least, words)                                          \
-  {                                                                                             \
-    Tasks tasks = someTasks();                                                                  \
-    /* moments are asked for in a contact only */                                               \
-    if (std::string(#name) == "contact_moment") setWeight(tasks.contact_force_weight, 2);       \
-    expectRow(#name, tasks, [](Tasks& t) { setWeight(t.name##_weight, 3); },                    \
-              [](const Tasks& t, int size) { return weightsOf(t.name##_weight, size); }, term); \
+#define BALLBOT_ROW(name, N, unit, term, least, words)                                    \
+  {                                                                                       \
+    Tasks tasks = someTasks();                                                            \
+    /* moments are asked for in a contact only */                                         \
+    if (std::string(#name) == "contact_moment") setWeight(tasks.contact_force_weight, 2); \
+    expectRow(                                                                            \
+        #name, tasks, [](Tasks& t) { setWeight(t.name##_weight, 3); },                    \
+        [](const Tasks& t, int size) { return weightsOf(t.name##_weight, size); }, term); \
   }
   BALLBOT_TASKS(BALLBOT_ROW, BALLBOT_ROW)
 #undef BALLBOT_ROW

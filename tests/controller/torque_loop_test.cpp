@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "controller/lqr.hpp"
-#include "tests/solver/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/eigenvalues.hpp"
 
 namespace ballbot {
 namespace {
@@ -19,21 +19,25 @@ struct Loop {
   LqrWeights weights;
 
   ShapedLqr law(const FrequencyShaping& shaping) const {
-    return designShapedLqr(dynamics, dynamics.robot().nominal_arm, weights.stateWeight(), weights.torqueWeight(), shaping);
+    return designShapedLqr(dynamics, dynamics.robot().nominal_arm, weights.stateWeight(),
+                           weights.torqueWeight(), shaping);
   }
 };
 
 LoopDrives drives(double bandwidth_Hz) {
   LoopDrives out;
-  for (ActuatorParameters* p : {&out.actuators.wheel, &out.actuators.arm}) p->torque_bandwidth = bandwidth_Hz;
+  for (ActuatorParameters* p : {&out.actuators.wheel, &out.actuators.arm})
+    p->torque_bandwidth = bandwidth_Hz;
   return out;
 }
 
 TEST(ShapedLqr, WithoutShapingIsThePlainLqr) {
   const Loop loop;
   const ShapedLqr shaped = loop.law(kNone);
-  const LqrSolution plain = designLqr(loop.dynamics, loop.dynamics.robot().nominal_arm, loop.weights);
-  EXPECT_LT((shaped.K.leftCols<kStateDim>() + plain.K).cwiseAbs().maxCoeff(), 1e-6 * plain.K.cwiseAbs().maxCoeff());
+  const LqrSolution plain =
+      designLqr(loop.dynamics, loop.dynamics.robot().nominal_arm, loop.weights);
+  EXPECT_LT((shaped.K.leftCols<kStateDim>() + plain.K).cwiseAbs().maxCoeff(),
+            1e-6 * plain.K.cwiseAbs().maxCoeff());
   EXPECT_LT(shaped.K.rightCols<kFilterDim>().cwiseAbs().maxCoeff(), 1e-6);
 }
 
@@ -51,7 +55,10 @@ TEST(TorqueLoop, OfALqrKeepsItsDistanceOfOneFromInstability) {
   const Loop loop;
   const TorqueLoop L(loop.law(kNone), loop.dynamics, std::nullopt, 0);
   for (const double omega : loopFrequencies()) {
-    EXPECT_GE(smallestSingularValue(TorqueLoop::Wheels(TorqueLoop::Wheels::Identity() + L.wheels(omega))), 1 - 1e-6) << omega;
+    EXPECT_GE(
+        smallestSingularValue(TorqueLoop::Wheels(TorqueLoop::Wheels::Identity() + L.wheels(omega))),
+        1 - 1e-6)
+        << omega;
   }
 }
 
@@ -62,7 +69,8 @@ TEST(TorqueLoop, AtTheWheelsIsTheLoopWithTheArmClosed) {
     const TorqueLoop::Joints all = L.joints(omega);
     const TorqueLoop::Wheels ww = all.topLeftCorner<3, 3>(), wa = all.topRightCorner<3, 3>(),
                              aw = all.bottomLeftCorner<3, 3>(), aa = all.bottomRightCorner<3, 3>();
-    const TorqueLoop::Wheels expected = ww - wa * (TorqueLoop::Wheels::Identity() + aa).inverse() * aw;
+    const TorqueLoop::Wheels expected =
+        ww - wa * (TorqueLoop::Wheels::Identity() + aa).inverse() * aw;
     EXPECT_LT((L.wheels(omega) - expected).norm(), 1e-9 * expected.norm()) << omega;
   }
 }
@@ -78,11 +86,13 @@ TEST(TorqueLoop, ClosesToThePolesOfTheClosedLoop) {
 TEST(TorqueLoop, FastDrivesAreNoDrives) {
   const Loop loop;
   LoopDrives fast = drives(4000);
-  for (ActuatorParameters* p : {&fast.actuators.wheel, &fast.actuators.arm}) p->current_loop_bandwidth = 1e6;
+  for (ActuatorParameters* p : {&fast.actuators.wheel, &fast.actuators.arm})
+    p->current_loop_bandwidth = 1e6;
   const ShapedLqr law = loop.law({100, 200});
   const TorqueLoop with(law, loop.dynamics, fast, 0), without(law, loop.dynamics, std::nullopt, 0);
   for (const double omega : {2.0, 20.0}) {
-    EXPECT_LT((with.wheels(omega) - without.wheels(omega)).norm(), 0.02 * without.wheels(omega).norm());
+    EXPECT_LT((with.wheels(omega) - without.wheels(omega)).norm(),
+              0.02 * without.wheels(omega).norm());
   }
 }
 
@@ -97,13 +107,17 @@ TEST(LoopMargins, AtTheDelayMarginALocusPassesThroughMinusOne) {
     const TorqueLoop L(law, loop.dynamics, drives(40), total_delay);
     double least = 1e9;
     for (double omega = 10; omega < 1000; omega *= 1.005) {
-      least = std::min(least, std::abs((TorqueLoop::Joints::Identity() + L.joints(omega)).determinant()));
+      least = std::min(least,
+                       std::abs((TorqueLoop::Joints::Identity() + L.joints(omega)).determinant()));
     }
     return least;
   };
-  EXPECT_LT(closest(delay + margins.delay_margin), 0.1 * closest(delay + 0.5 * margins.delay_margin));
-  EXPECT_FALSE(marginsOf(law, loop.dynamics, drives(40), delay + 1.01 * margins.delay_margin).stable);
-  EXPECT_TRUE(marginsOf(law, loop.dynamics, drives(40), delay + 0.99 * margins.delay_margin).stable);
+  EXPECT_LT(closest(delay + margins.delay_margin),
+            0.1 * closest(delay + 0.5 * margins.delay_margin));
+  EXPECT_FALSE(
+      marginsOf(law, loop.dynamics, drives(40), delay + 1.01 * margins.delay_margin).stable);
+  EXPECT_TRUE(
+      marginsOf(law, loop.dynamics, drives(40), delay + 0.99 * margins.delay_margin).stable);
 }
 
 TEST(LoopMargins, AtTheWheelsMarginsALocusPassesThroughMinusOne) {
@@ -120,8 +134,11 @@ TEST(LoopMargins, AtTheWheelsMarginsALocusPassesThroughMinusOne) {
   const auto closest = [&](double gain, double delay) {
     double least = 1e9;
     for (double omega = 0.5; omega < 3000; omega *= 1.002) {
-      const std::complex<double> inserted = gain * std::exp(std::complex<double>(0, -omega * delay));
-      least = std::min(least, std::abs((TorqueLoop::Wheels::Identity() + inserted * L.wheels(omega)).determinant()));
+      const std::complex<double> inserted =
+          gain * std::exp(std::complex<double>(0, -omega * delay));
+      least = std::min(
+          least,
+          std::abs((TorqueLoop::Wheels::Identity() + inserted * L.wheels(omega)).determinant()));
     }
     return least;
   };
@@ -146,7 +163,8 @@ TEST(LoopMargins, CrossoverIsWhereTheGainIsOne) {
   EXPECT_GT(margins.crossover, 2 * 5.2);  // twice the fastest unstable pole
 }
 
-// Measured elsewhere with the same dynamics: shaping pays for aggressive weights behind slow drives.
+// Measured elsewhere with the same dynamics: shaping pays for aggressive weights behind slow
+// drives.
 TEST(LoopMargins, ShapingKeepsAnAggressiveLoopBehindSlowDrivesAwayFromInstability) {
   Loop loop;
   loop.weights.wheel_torque = 0.02;
@@ -178,9 +196,11 @@ TEST(StateWeightOfTasks, AnEndEffectorTaskPricesWhatMovesIt) {
   const ReducedDynamics dynamics(robot);
   Tasks tasks;
   tasks.ee_position_weight << 0, 0, 400;  // height alone
-  const StateJacobian with = stateWeightOfTasks(robot, Constraints(robot), tasks, robot.nominal_arm);
+  const StateJacobian with =
+      stateWeightOfTasks(robot, Constraints(robot), tasks, robot.nominal_arm);
   tasks.ee_position_weight.setZero();
-  const StateJacobian barriers = stateWeightOfTasks(robot, Constraints(robot), tasks, robot.nominal_arm);
+  const StateJacobian barriers =
+      stateWeightOfTasks(robot, Constraints(robot), tasks, robot.nominal_arm);
   const PositionVector q = findEquilibrium(dynamics, robot.nominal_arm).x.head<kPositionDim>();
   const double lever = dynamics.endEffectorJacobian(q)(2, kArmRate2);
   EXPECT_NEAR((with - barriers)(kArm2, kArm2), 400 * lever * lever, 1e-6);

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "model/frames.hpp"
-#include "tests/solver/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/eigenvalues.hpp"
 
 namespace ballbot {
 namespace {
@@ -101,8 +101,8 @@ class WholeBodyProblemTest : public testing::TestWithParam<int> {
   void expectGradientsToBeDifferences();
 
   RobotParameters robot_ = exampleRobot();
-  Problem problem_{robot_, Constraints(robot_), FrequencyShaping{20, 300}, TerminalCost{},
-                   {0, 0.02, 0.05}};
+  Problem problem_{
+      robot_, Constraints(robot_), FrequencyShaping{20, 300}, TerminalCost{}, {0, 0.02, 0.05}};
   X x_;
   U u_;
 };
@@ -146,7 +146,8 @@ void WholeBodyProblemTest::expectGradientsToBeDifferences() {
   problem_.approximate(0, 1, &x_, &u_, &terms, &lq);
   problem_.addCost(0, x_, u_, expected);
   for (int i = 0; i < kCostTermCount; ++i) {
-    EXPECT_NEAR(terms.value[i], expected.value[i], 1e-13 * (1 + std::abs(expected.value[i]))) << costTermName(CostTerm(i));
+    EXPECT_NEAR(terms.value[i], expected.value[i], 1e-13 * (1 + std::abs(expected.value[i])))
+        << costTermName(CostTerm(i));
   }
   const double h = 1e-5;
   for (int i = 0; i < kMpcStateDim; ++i) {
@@ -187,7 +188,8 @@ TEST_P(WholeBodyProblemTest, FinalCostGradientIsACentralDifference) {
     X a = x_, b = x_;
     a[i] += h;
     b[i] -= h;
-    EXPECT_NEAR(value.s()[i], (finalCost(problem_, a) - finalCost(problem_, b)) / (2 * h), 1e-5) << i;
+    EXPECT_NEAR(value.s()[i], (finalCost(problem_, a) - finalCost(problem_, b)) / (2 * h), 1e-5)
+        << i;
   }
 }
 

@@ -43,7 +43,9 @@ std::string errorOf(const std::function<void()>& act) {
 
 TEST(ConfigNode, WritesYamlThatReadsBackTheSame) {
   const ConfigNode node = parseYaml(
-      "a: 1\nb: {c: [1, -2.5e-3], d: \"1\", e: 'it: \"#\\'}\nf: [{g: 1, h: []}, {g: {}}]\nn: ~\nneg: -.5\n", "t");
+      "a: 1\nb: {c: [1, -2.5e-3], d: \"1\", e: 'it: \"#\\'}\nf: [{g: 1, h: []}, {g: {}}]\nn: "
+      "~\nneg: -.5\n",
+      "t");
   const std::string once = toYaml(node);
   EXPECT_EQ(toYaml(parseYaml(once, "t")), once);
   ConfigReader in(node);
@@ -164,10 +166,12 @@ TEST(ConfigNode, OverrideErrorsNameTheFlag) {
   ConfigNode node = parseYaml("a: 1\nl: [1]", "t.yaml");
   EXPECT_THAT(errorOf([&] { applyOverride(node, "a.b.c=1"); }),
               HasSubstr("--set a.b.c=1: 'a.b.c' cannot be set below t.yaml:1:4"));
-  EXPECT_THAT(errorOf([&] { applyOverride(node, "l.3=1"); }), HasSubstr("is not an item of the list"));
+  EXPECT_THAT(errorOf([&] { applyOverride(node, "l.3=1"); }),
+              HasSubstr("is not an item of the list"));
   EXPECT_THAT(errorOf([&] { applyOverride(node, "seed"); }), HasSubstr("write path=value"));
   applyOverride(node, "a=fast");
-  EXPECT_EQ(errorOf([&] { ConfigReader(node).number("a"); }), "--set a=fast: a is fast, must be a number");
+  EXPECT_EQ(errorOf([&] { ConfigReader(node).number("a"); }),
+            "--set a=fast: a is fast, must be a number");
 }
 
 TEST(ConfigNode, DuplicateKeysAreRefused) {
@@ -177,7 +181,8 @@ TEST(ConfigNode, DuplicateKeysAreRefused) {
 
 TEST_F(YamlFiles, IncludeLaysTheOwnKeysOnTop) {
   write("base.yaml", "a: {x: 1, y: 2}\nb: 3\n");
-  const ConfigNode node = loadYamlFile(write("top.yaml", "part:\n  include: base.yaml\n  a: {y: 9}\n"));
+  const ConfigNode node =
+      loadYamlFile(write("top.yaml", "part:\n  include: base.yaml\n  a: {y: 9}\n"));
   const ConfigNode& part = *node.find("part");
   EXPECT_EQ(part.find("a")->find("x")->text(), "1");
   EXPECT_EQ(part.find("a")->find("y")->text(), "9");
@@ -187,12 +192,15 @@ TEST_F(YamlFiles, IncludeLaysTheOwnKeysOnTop) {
 
 TEST_F(YamlFiles, IncludeErrorsSayWhere) {
   const std::string top = write("top.yaml", "a: 1\npart: {include: nowhere.yaml}\n");
-  EXPECT_THAT(errorOf([&] { loadYamlFile(top); }), HasSubstr("top.yaml:2:17: cannot include 'nowhere.yaml'"));
+  EXPECT_THAT(errorOf([&] { loadYamlFile(top); }),
+              HasSubstr("top.yaml:2:17: cannot include 'nowhere.yaml'"));
   write("loop.yaml", "x: {include: loop.yaml}");
-  EXPECT_THAT(errorOf([&] { loadYamlFile((folder_ / "loop.yaml").string()); }), HasSubstr("includes itself"));
+  EXPECT_THAT(errorOf([&] { loadYamlFile((folder_ / "loop.yaml").string()); }),
+              HasSubstr("includes itself"));
   EXPECT_THAT(errorOf([&] { loadYamlFile(write("bad.yaml", "a: [1, 2\nb: 3")); }),
               HasSubstr("not valid YAML"));
-  EXPECT_THAT(errorOf([&] { loadYamlFile("/nowhere/x.yaml"); }), HasSubstr("/nowhere/x.yaml: cannot be read"));
+  EXPECT_THAT(errorOf([&] { loadYamlFile("/nowhere/x.yaml"); }),
+              HasSubstr("/nowhere/x.yaml: cannot be read"));
 }
 
 }  // namespace

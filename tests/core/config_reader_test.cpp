@@ -27,7 +27,9 @@ std::string errorOf(const std::string& yaml, const std::function<void(ConfigRead
 
 TEST(ConfigReader, ReadsEveryType) {
   const ConfigNode node = parseYaml(
-      "a: 1.5\nb: 3\nc: true\nd: text\ne: [1, 2, 3]\nf: fast\ng_us: 400\nh: {x: 1}\ni: [{y: 1}, {y: 2}]\n", "t");
+      "a: 1.5\nb: 3\nc: true\nd: text\ne: [1, 2, 3]\nf: fast\ng_us: 400\nh: {x: 1}\ni: [{y: 1}, "
+      "{y: 2}]\n",
+      "t");
   ConfigReader in(node);
   EXPECT_EQ(in.number("a"), 1.5);
   EXPECT_EQ(in.integer("b"), 3);
@@ -51,12 +53,16 @@ TEST(ConfigReader, TakesTheFallbackOnlyWhereTheKeyIsAbsent) {
 }
 
 TEST(ConfigReader, NamesPlaceValueAndRange) {
-  EXPECT_EQ(errorOf("x: 1\ntorque_limit_Nm: -4", [](ConfigReader& in) {
-              in.number("x");
-              in.number("torque_limit_Nm", {0, 50});
-            }),
+  EXPECT_EQ(errorOf("x: 1\ntorque_limit_Nm: -4",
+                    [](ConfigReader& in) {
+                      in.number("x");
+                      in.number("torque_limit_Nm", {0, 50});
+                    }),
             "sea.yaml:2:18: torque_limit_Nm is -4, must be between 0 and 50");
-  EXPECT_EQ(errorOf("mass_kg: 0", [](ConfigReader& in) { in.number("mass_kg", {kTiny, kInf}); }),
+  EXPECT_EQ(errorOf("mass_kg: 0",
+                    [](ConfigReader& in) {
+                      in.number("mass_kg", {kTiny, kInf});
+                    }),
             "sea.yaml:1:10: mass_kg is 0, must be more than 0");
 }
 
@@ -72,9 +78,10 @@ TEST(ConfigReader, RefusesNumbersThatAreNone) {
 }
 
 TEST(ConfigReader, GuessesTheKeyThatWasMeant) {
-  EXPECT_EQ(errorOf("sprnig_stiffness: 3",
-                    [](ConfigReader& in) { in.number("spring_stiffness_Nm_per_rad"); }),
-            "sea.yaml:1:19: unknown key 'sprnig_stiffness'; did you mean 'spring_stiffness_Nm_per_rad'?");
+  EXPECT_EQ(
+      errorOf("sprnig_stiffness: 3",
+              [](ConfigReader& in) { in.number("spring_stiffness_Nm_per_rad"); }),
+      "sea.yaml:1:19: unknown key 'sprnig_stiffness'; did you mean 'spring_stiffness_Nm_per_rad'?");
   EXPECT_EQ(errorOf("mass: 1\nmas: 2", [](ConfigReader& in) { in.number("mass"); }),
             "sea.yaml:2:6: unknown key 'mas'; did you mean 'mass'?");
   EXPECT_THAT(errorOf("zzzzzzzz: 1\nmass: 2", [](ConfigReader& in) { in.number("mass"); }),
@@ -82,17 +89,20 @@ TEST(ConfigReader, GuessesTheKeyThatWasMeant) {
 }
 
 TEST(ConfigReader, SaysWhichKeyIsMissingAndWhere) {
-  EXPECT_EQ(errorOf("a: {b: 1}", [](ConfigReader& in) {
-              ConfigReader a = in.child("a");
-              a.number("b");
-              a.number("c");
-            }),
+  EXPECT_EQ(errorOf("a: {b: 1}",
+                    [](ConfigReader& in) {
+                      ConfigReader a = in.child("a");
+                      a.number("b");
+                      a.number("c");
+                    }),
             "sea.yaml:1:4: key 'c' is missing in 'a'");
 }
 
 TEST(ConfigReader, ListsTheChoices) {
   EXPECT_EQ(errorOf("mode: turbo",
-                    [](ConfigReader& in) { in.choice<int>("mode", {{"ideal", 0}, {"real", 1}}); }),
+                    [](ConfigReader& in) {
+                      in.choice<int>("mode", {{"ideal", 0}, {"real", 1}});
+                    }),
             "sea.yaml:1:7: mode is 'turbo', must be one of: ideal, real");
 }
 
@@ -104,8 +114,9 @@ TEST(ConfigReader, CountsTheNumbersOfAList) {
 }
 
 TEST(ConfigReader, RefusesPeriodsThatAreNotWholeNanoseconds) {
-  EXPECT_THAT(errorOf("period_ms: 16.6666666666", [](ConfigReader& in) { in.duration("period_ms"); }),
-              HasSubstr("not a whole number of nanoseconds"));
+  EXPECT_THAT(
+      errorOf("period_ms: 16.6666666666", [](ConfigReader& in) { in.duration("period_ms"); }),
+      HasSubstr("not a whole number of nanoseconds"));
 }
 
 }  // namespace

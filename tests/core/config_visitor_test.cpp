@@ -48,9 +48,8 @@ struct Toy {
       spares.emplace_back();
       spares.back().describe(in);
     });
-    v.other(may("root", "taken twice"), "a number whose square counts", [&](ConfigReader& in) {
-      squared = in.number("root") * in.number("root");
-    });
+    v.other(may("root", "taken twice"), "a number whose square counts",
+            [&](ConfigReader& in) { squared = in.number("root") * in.number("root"); });
   }
 };
 
@@ -95,8 +94,10 @@ TEST(ConfigVisitor, HasTheReadersErrors) {
   EXPECT_THAT(errorOf("{mass_kg: 0}"), HasSubstr("mass_kg"));
   EXPECT_THAT(errorOf("{mass_kg: 1, dors: 3}"), HasSubstr("did you mean 'doors'?"));
   EXPECT_THAT(errorOf("{mass_kg: 1, colour: blue}"), HasSubstr("must be one of: red, green"));
-  EXPECT_THAT(errorOf("{mass_kg: 1, wheel: {angel_deg: 3}}"), HasSubstr("did you mean 'angle_deg'?"));
-  EXPECT_THAT(errorOf("{mass_kg: 1, spares: [{x: 1}]}"), HasSubstr("unknown key 'x' in 'spares.0'"));
+  EXPECT_THAT(errorOf("{mass_kg: 1, wheel: {angel_deg: 3}}"),
+              HasSubstr("did you mean 'angle_deg'?"));
+  EXPECT_THAT(errorOf("{mass_kg: 1, spares: [{x: 1}]}"),
+              HasSubstr("unknown key 'x' in 'spares.0'"));
   EXPECT_THAT(errorOf("{mass_kg: 1, size_m: [1]}"), HasSubstr("must be a list of 2 numbers"));
 }
 

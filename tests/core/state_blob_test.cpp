@@ -52,13 +52,15 @@ TEST(StateBlob, EveryDamagedByteIsRefused) {
 TEST(StateBlob, EveryTruncationIsRefused) {
   const StateBlob good = example();
   for (std::size_t n = 0; n < good.size(); ++n) {
-    EXPECT_NE(errorOf(StateBlob(good.begin(), good.begin() + static_cast<long>(n)), "plant", 2), "no error");
+    EXPECT_NE(errorOf(StateBlob(good.begin(), good.begin() + static_cast<long>(n)), "plant", 2),
+              "no error");
   }
 }
 
 TEST(StateBlob, SaysWhatIsWrong) {
   EXPECT_THAT(errorOf(example(), "estimator", 2), HasSubstr("not a saved estimator state"));
-  EXPECT_THAT(errorOf(example(), "plant", 3), HasSubstr("layout version 2, this program reads version 3"));
+  EXPECT_THAT(errorOf(example(), "plant", 3),
+              HasSubstr("layout version 2, this program reads version 3"));
   StateBlob damaged = example();
   damaged.back() ^= 1;
   EXPECT_THAT(errorOf(damaged, "plant", 2), HasSubstr("checksum does not match"));

@@ -196,8 +196,7 @@ TEST(RemoteParticipant, AFailureFarAwayIsThatFailureHereAndTheFarEndIsReleased) 
     remote.enterInitializationMode(kSimStart);
     served.spring.failAt(kSimStart + 2 * kStepLength);
     remote.doStep(kSimStart, kStepLength, {});
-    EXPECT_EQ(wordsOf<InputError>(
-                  [&] { remote.doStep(kSimStart + kStepLength, kStepLength, {}); }),
+    EXPECT_EQ(wordsOf<InputError>([&] { remote.doStep(kSimStart + kStepLength, kStepLength, {}); }),
               "spring: broke at 0.002000 s");
   }
   served.join();

@@ -49,8 +49,7 @@ class ObservedRobot {
     StateVector out = dynamics_.derivative(at, torqueAt(at), force_W);
     VelocityVector push = VelocityVector::Zero();
     push[kOmegaY] = base_torque;
-    out.tail<kVelocityDim>() +=
-        dynamics_.massMatrix(at.head<kPositionDim>()).ldlt().solve(push);
+    out.tail<kVelocityDim>() += dynamics_.massMatrix(at.head<kPositionDim>()).ldlt().solve(push);
     return out;
   }
 

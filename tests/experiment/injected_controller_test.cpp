@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "core/state_visitors.hpp"
 #include "experiment/run_experiment.hpp"
 
 namespace ballbot {
@@ -25,8 +26,8 @@ class Idle final : public SteppedController {
     if (due.has(task_)) ++asked_;
     out.command.torque.setZero();
   }
-  StateBlob saveState() const override { return BlobWriter().seal("idle", 1); }
-  void restoreState(const StateBlob&) override {}
+  StateBlob saveState() const override { return saveStateOf(asked_, "idle", 1); }
+  void restoreState(const StateBlob& blob) override { restoreStateOf(asked_, blob, "idle", 1); }
   std::map<std::string, double> metrics() const override {
     return {{"times_asked", static_cast<double>(asked_)}};
   }

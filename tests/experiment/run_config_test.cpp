@@ -10,8 +10,7 @@ namespace {
 using ::testing::HasSubstr;
 
 RunConfig config(const std::vector<std::string>& changes) {
-  return readRunConfig(
-      loadScenario(BALLBOT_SOURCE_DIR "/configs/scenarios/balance.yaml", changes));
+  return readRunConfig(loadScenario(BALLBOT_SOURCE_DIR "/configs/scenarios/balance.yaml", changes));
 }
 
 std::string said(const std::vector<std::string>& changes) {

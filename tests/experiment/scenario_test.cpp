@@ -1,10 +1,9 @@
 #include "experiment/scenario.hpp"
 
-#include <unistd.h>
-
 #include <filesystem>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "core/error.hpp"
 
@@ -13,12 +12,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string balance() { return std::string(BALLBOT_SOURCE_DIR) + "/configs/scenarios/balance.yaml"; }
+std::string balance() {
+  return std::string(BALLBOT_SOURCE_DIR) + "/configs/scenarios/balance.yaml";
+}
 
 TEST(Scenario, WrittenToARunFolderItReadsBackTheSame) {
-  const fs::path folder = fs::temp_directory_path() / ("ballbot_scenario_" + std::to_string(::getpid()));
+  const fs::path folder =
+      fs::temp_directory_path() / ("ballbot_scenario_" + std::to_string(::getpid()));
   fs::create_directories(folder);
-  const Scenario scenario = loadScenario(balance(), {"duration_s=3.5", "plant.fidelity.friction=false"}, 42);
+  const Scenario scenario =
+      loadScenario(balance(), {"duration_s=3.5", "plant.fidelity.friction=false"}, 42);
   writeScenario(scenario, folder.string());
   const Scenario again = loadScenario((folder / "scenario.yaml").string());
   EXPECT_EQ(again.configDigest(), scenario.configDigest());
@@ -32,7 +35,8 @@ TEST(Scenario, WrittenToARunFolderItReadsBackTheSame) {
 TEST(Scenario, TheDigestSeesEveryValue) {
   const std::string digest = loadScenario(balance()).configDigest();
   EXPECT_EQ(loadScenario(balance()).configDigest(), digest);
-  for (const char* change : {"seed=2", "duration_s=9", "plant.fidelity.friction=false", "robot.gravity_m_per_s2=9.8"}) {
+  for (const char* change :
+       {"seed=2", "duration_s=9", "plant.fidelity.friction=false", "robot.gravity_m_per_s2=9.8"}) {
     EXPECT_NE(loadScenario(balance(), {change}).configDigest(), digest) << change;
   }
 }

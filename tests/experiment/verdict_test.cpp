@@ -4,15 +4,16 @@
 
 #include <gmock/gmock.h>
 
-#include "core/key_unit.hpp"
 #include "core/error.hpp"
+#include "core/key_unit.hpp"
 
 namespace ballbot {
 namespace {
 
 using ::testing::HasSubstr;
 
-MetricLimit limit(const std::string& metric, std::optional<double> below, std::optional<double> above) {
+MetricLimit limit(const std::string& metric, std::optional<double> below,
+                  std::optional<double> above) {
   MetricLimit l;
   l.metric = metric;
   l.below = below;
@@ -22,8 +23,9 @@ MetricLimit limit(const std::string& metric, std::optional<double> below, std::o
 }
 
 TEST(Verdict, HoldsEachMetricAgainstItsLimits) {
-  const auto rows = judge({limit("a", 2, {}), limit("a", {}, 2), limit("a", 2, 0.5), limit("a", 1, {})},
-                          {{"a", 1}}, {"a"});
+  const auto rows =
+      judge({limit("a", 2, {}), limit("a", {}, 2), limit("a", 2, 0.5), limit("a", 1, {})},
+            {{"a", 1}}, {"a"});
   EXPECT_TRUE(rows[0].passed);
   EXPECT_EQ(rows[0].limit, "< 2");
   EXPECT_FALSE(rows[1].passed);
@@ -45,7 +47,9 @@ TEST(Verdict, AnUnknownMetricIsRefusedWithThoseKnown) {
     judge({limit("beauty", 2, {})}, {}, {"tilt", "drift"});
     FAIL() << "accepted";
   } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("s.yaml:3:5: requirement on unknown metric 'beauty'; known are: tilt, drift"));
+    EXPECT_THAT(
+        e.what(),
+        HasSubstr("s.yaml:3:5: requirement on unknown metric 'beauty'; known are: tilt, drift"));
   }
 }
 

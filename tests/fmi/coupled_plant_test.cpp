@@ -85,7 +85,8 @@ INSTANTIATE_TEST_SUITE_P(Fmi, PlantFmuAsPlant, ::testing::Values(2, 3),
 // The law of the coupling: what acts on the plant during a step is what the spring makes of the
 // plant's own values at the beginning of that step.
 TEST(CoupledPlant, AForceFollowsFromThePlantsValuesOfTheSameInstant) {
-  CoupledPlant plant = coupledPlant(scenarioWith(spring("stiffness: 40, 'anchor[3]': 2", bothWays())));
+  CoupledPlant plant =
+      coupledPlant(scenarioWith(spring("stiffness: 40, 'anchor[3]': 2", bothWays())));
   plant.enterInitializationMode(kSimStart);
   for (int k = 1; k <= 80; ++k) {
     const Vector3 expected = 40 * (Vector3(0, 0, 2) - plant.truth()->p_WE);
@@ -97,7 +98,8 @@ TEST(CoupledPlant, AForceFollowsFromThePlantsValuesOfTheSameInstant) {
 TEST(CoupledPlant, ADelayedForceIsThatOfTheStepBefore) {
   const std::string delayed =
       "{from: spring.force, to: plant.force.end_effector_W, delay_steps: 1}";
-  CoupledPlant plant = coupledPlant(scenarioWith(spring("stiffness: 40", kHandToSpring + (", " + delayed))));
+  CoupledPlant plant =
+      coupledPlant(scenarioWith(spring("stiffness: 40", kHandToSpring + (", " + delayed))));
   plant.enterInitializationMode(kSimStart);
   Vector3 before = plant.truth()->p_WE;
   steps(plant, 1, 50);
@@ -113,7 +115,8 @@ TEST(CoupledPlant, ADelayedForceIsThatOfTheStepBefore) {
 
 // Another importer of the same equations: the plant, told the spring's force by hand.
 TEST(CoupledPlant, IsThePlantWithTheForceAppliedByHand) {
-  CoupledPlant coupled = coupledPlant(scenarioWith(spring("stiffness: 40, 'anchor[1]': 0.5", bothWays())));
+  CoupledPlant coupled =
+      coupledPlant(scenarioWith(spring("stiffness: 40, 'anchor[1]': 0.5", bothWays())));
   Plant native(readPlantConfig(testScenario()));
   coupled.enterInitializationMode(kSimStart);
   native.reset(kSimStart);
@@ -154,7 +157,8 @@ TEST(CoupledPlant, ContinuesToTheBitAlsoInOtherProcesses) {
 
 TEST(CoupledPlant, AForeignStateIsRefused) {
   CoupledPlant one = coupledPlant(scenarioWith(spring("", bothWays())));
-  CoupledPlant other = coupledPlant(scenarioWith(spring("", "{from: spring.force, to: plant.force.base_W}")));
+  CoupledPlant other =
+      coupledPlant(scenarioWith(spring("", "{from: spring.force, to: plant.force.base_W}")));
   one.enterInitializationMode(kSimStart);
   other.enterInitializationMode(kSimStart);
   EXPECT_THAT(messageOf([&] { other.restoreState(StateBlob(100, 1)); }),

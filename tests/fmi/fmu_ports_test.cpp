@@ -151,7 +151,8 @@ TEST(FmuDescription, TakesLinearTime) {
   const auto two = readFmuDescription(fmi2File("long", row, types));
   EXPECT_EQ(allPorts(two).size(), 1U);
   EXPECT_EQ(findPort(two, "u").size, kCount);
-  const auto three = readFmuDescription(fmi3File("many", outputs, "<ModelStructure>" + structure + "</ModelStructure>"));
+  const auto three = readFmuDescription(
+      fmi3File("many", outputs, "<ModelStructure>" + structure + "</ModelStructure>"));
   EXPECT_EQ(allPorts(three).size(), static_cast<std::size_t>(kCount));
   EXPECT_FALSE(three.variables.back().depends_on_all);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));

@@ -8,12 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "model/signal_check.hpp"
 #include "cosim/lcm_bus.hpp"
 #include "cosim/lcm_transport.hpp"
 #include "cosim/remote_participant.hpp"
 #include "cosim/step_client.hpp"
 #include "cosim/step_server.hpp"
+#include "model/signal_check.hpp"
 #include "tests/cosim/support/spring_participant.hpp"
 #include "tests/cosim/support/stranger.hpp"
 #include "tests/fuzz/mutator.hpp"

@@ -186,7 +186,8 @@ TEST(BenchScenario, CommandsEqualThoseAgainstThePlantWithMatchedQuantisation) {
         benchFile("bench.yaml", {synchronous ? "synchronous_outputs=true" : "stepped=true"}),
         false);
     EXPECT_EQ(bench.saturated, 0);
-    Lifecycle direct(std::make_unique<QuantizedPlant>(makePlant(readPlantSetup(scenario)), 40, synchronous));
+    Lifecycle direct(
+        std::make_unique<QuantizedPlant>(makePlant(readPlantSetup(scenario)), 40, synchronous));
     expectSameCommands(control(scenario, direct), bench);
   }
 }

@@ -1,11 +1,13 @@
-// What the co-simulation is told of a bench's samples, by a runner that says exactly which they are.
+// What the co-simulation is told of a bench's samples, by a runner that says exactly which they
+// are.
+#include "hil/hil_participant.hpp"
+
 #include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/yaml_file.hpp"
-#include "hil/hil_participant.hpp"
 
 namespace ballbot {
 namespace {

@@ -1,6 +1,7 @@
 // No false alarms: robot, drives and controller on the stepped bench, with every check watching.
 // More of it: BALLBOT_UNDISTURBED="SECONDS FIRST_SEED LAST_SEED [reduced_wheels]"
-// build/release/tests/hil_scenario_test; the last word takes the multibody model that is six times as fast.
+// build/release/tests/hil_scenario_test; the last word takes the multibody model that is six times
+// as fast.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -24,14 +24,18 @@ TEST(StaticBalance, CentreOfMassIsWhereTheModelsGravityHasIt) {
     // At rest: energy = m_K g r + m_u g z.
     const UpperBody body = upperBody(robot, x);
     EXPECT_NEAR(dynamics.energy(x),
-                robot.gravity * (robot.ball.mass * robot.ball.radius + body.mass * body.p_WC.z()), 1e-9);
+                robot.gravity * (robot.ball.mass * robot.ball.radius + body.mass * body.p_WC.z()),
+                1e-9);
     EXPECT_NEAR(body.mass, robot.totalMass() - robot.ball.mass, 1e-12);
     const auto poses = bodyPoses(robot, x);
-    EXPECT_LT((poses.back().p_WL + poses.back().R_WL * robot.p_A3E - dynamics.endEffector(x).p_WE).norm(), 1e-12);
+    EXPECT_LT(
+        (poses.back().p_WL + poses.back().R_WL * robot.p_A3E - dynamics.endEffector(x).p_WE).norm(),
+        1e-12);
   }
 }
 
-/// Leans against a force and stands still: found with the dynamics, not with the statics under test.
+/// Leans against a force and stands still: found with the dynamics, not with the statics under
+/// test.
 StateVector atRestUnder(const ReducedDynamics& dynamics, const Vector3& force_W) {
   const Vector3 arm = dynamics.robot().nominal_arm;
   StateVector x = StateVector::Zero();
@@ -60,7 +64,8 @@ StateVector atRestUnder(const ReducedDynamics& dynamics, const Vector3& force_W)
 TEST(StaticBalance, HoldsForARobotThatStandsStillUnderAForce) {
   const RobotParameters robot = exampleRobot();
   const ReducedDynamics dynamics(robot);
-  for (const Vector3& force : {Vector3(0, 0, 0), Vector3(-5, 0, 0), Vector3(-10, 0, -3), Vector3(-3, 0, 4)}) {
+  for (const Vector3& force :
+       {Vector3(0, 0, 0), Vector3(-5, 0, 0), Vector3(-10, 0, -3), Vector3(-3, 0, 4)}) {
     TruthFrame truth;
     truth.state = atRestUnder(dynamics, force);
     truth.p_WE = dynamics.endEffector(truth.state).p_WE;
@@ -84,7 +89,8 @@ std::map<std::string, double> pushed(double asked, double given, double ripple) 
     truth.time = at(t);
     const bool touching = t >= 1.2;
     const double ramp = std::min(1.0, std::max(0.0, t - 1));
-    const double force = touching ? ramp * given + (t > 2 ? ripple * std::sin(20 * M_PI * t) : 0) : 0;
+    const double force =
+        touching ? ramp * given + (t > 2 ? ripple * std::sin(20 * M_PI * t) : 0) : 0;
     truth.contact_force_W << -force, 0, 0;
     truth.contact_phase = touching ? ContactPhase::kSticking : ContactPhase::kNone;
     truth.door_angle = touching ? 0.05 * (t - 1.2) : 0;

@@ -90,7 +90,8 @@ TEST(EeStepMetrics, JudgesEachComponentInItsOwnWindow) {
   EXPECT_NEAR(values.at("ee_roll_given_percent"), 2, 1e-6);
   EXPECT_EQ(values.count("ee_y_rise_s"), 0u);
   const auto names = EeStepMetrics::names();
-  for (const auto& value : values) EXPECT_EQ(std::count(names.begin(), names.end(), value.first), 1) << value.first;
+  for (const auto& value : values)
+    EXPECT_EQ(std::count(names.begin(), names.end(), value.first), 1) << value.first;
 }
 
 EeStep stepOf(double t, int component, double by) {
@@ -124,7 +125,8 @@ TEST(EeStepMetrics, TurnsOfTheReferenceBeyondHalfATurnAreNoErrors) {
   EXPECT_LT(values.at("ee_angle_error_rad"), 1e-6);
   EXPECT_NEAR(values.at("ee_yaw_rise_s"), 0.2 * std::log(10), 0.03);
   EXPECT_LT(values.at("ee_yaw_overshoot_percent"), 0.1);
-  EXPECT_TRUE(followed({stepOf(1, 3, 2 * M_PI)}, 10).empty()) << "a whole turn is no step of a pose";
+  EXPECT_TRUE(followed({stepOf(1, 3, 2 * M_PI)}, 10).empty())
+      << "a whole turn is no step of a pose";
 }
 
 TEST(EeStepMetrics, PitchMayGoBeyondARightAngle) {

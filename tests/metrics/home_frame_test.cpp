@@ -32,8 +32,7 @@ TEST(HomeFrame, ARobotThatStandsElsewhereAndFacesAnotherWayIsSeenAsTheSame) {
     const StateVector x = randomCase(i).x;
     StateVector elsewhere = x;
     const Matrix3 R_WH = home.R_WH();
-    elsewhere.segment<2>(kBallX) =
-        home.pointInW({x[kBallX], x[kBallY], 0}).head<2>();
+    elsewhere.segment<2>(kBallX) = home.pointInW({x[kBallX], x[kBallY], 0}).head<2>();
     elsewhere[kYaw] += home.yaw;
     elsewhere.segment<2>(kPositionDim + kBallVx) =
         R_WH.topLeftCorner<2, 2>() * x.segment<2>(kPositionDim + kBallVx);

@@ -20,7 +20,10 @@ TEST(PushMetrics, MeasuresExcursionAndReturnOfADecay) {
   PushMetrics metrics({{at(2), at(2.5)}});
   // Away by 0.4 m when the push ends, then back as exp(-t): 5 cm are reached ln(8) s later.
   for (double t = 0; t < 10; t += 1e-3) {
-    metrics.add(ball(t, 1 + (t < 2 ? 0 : t < 2.5 ? 0.8 * (t - 2) : 0.4 * std::exp(-(t - 2.5)))), {});
+    metrics.add(ball(t, 1 + (t < 2     ? 0
+                             : t < 2.5 ? 0.8 * (t - 2)
+                                       : 0.4 * std::exp(-(t - 2.5)))),
+                {});
   }
   EXPECT_NEAR(metrics.values().at("largest_push_excursion_m"), 0.4, 1e-3);
   EXPECT_NEAR(metrics.values().at("longest_push_return_s"), std::log(8.0), 2e-3);

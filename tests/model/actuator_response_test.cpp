@@ -26,7 +26,8 @@ TEST(ActuatorResponse, IsTheWantedSecondOrderSystemWithTheOutputBlocked) {
     const double w0 = 2 * M_PI * f;
     for (const double ratio : {0.01, 0.3, 1.0, 2.0}) {
       const std::complex<double> s(0, ratio * w0);
-      const std::complex<double> expected = w0 * w0 / (s * s + 2 * p.damping_ratio * w0 * s + w0 * w0);
+      const std::complex<double> expected =
+          w0 * w0 / (s * s + 2 * p.damping_ratio * w0 * s + w0 * w0);
       EXPECT_LT(std::abs(response.blocked(ratio * w0) - expected), 1e-4) << f << " at " << ratio;
     }
     EXPECT_NEAR(response.bandwidth(), w0, 1e-3 * w0);
@@ -51,7 +52,8 @@ TEST(ActuatorResponse, AFreeLoadFeelsTheRotorsInertiaThatTheLoopLeavesOver) {
   ActuatorParameters p = textbookDrive(40);
   p.viscous_friction = 1e-9;
   const double inertia = 0.044, leak = p.reflectedInertia() / (1 + p.torqueGainP());
-  EXPECT_NEAR(std::abs(ActuatorResponse(p, 0).loaded(0.1, inertia)), 1 / (1 + leak / inertia), 1e-4);
+  EXPECT_NEAR(std::abs(ActuatorResponse(p, 0).loaded(0.1, inertia)), 1 / (1 + leak / inertia),
+              1e-4);
 }
 
 TEST(ActuatorResponse, AnImmovableLoadIsABlockedOutput) {
@@ -63,12 +65,14 @@ TEST(ActuatorResponse, AnImmovableLoadIsABlockedOutput) {
 
 TEST(FreeInertia, IsTorqueOverTheJointsOwnAcceleration) {
   const ReducedDynamics dynamics(exampleRobot());
-  const PositionVector q = findEquilibrium(dynamics, dynamics.robot().nominal_arm).x.head<kPositionDim>();
+  const PositionVector q =
+      findEquilibrium(dynamics, dynamics.robot().nominal_arm).x.head<kPositionDim>();
   const JointVector inertia = freeInertia(dynamics, q);
   const VelocityVector rest = VelocityVector::Zero();
   const VelocityVector drift = dynamics.acceleration(q, rest, JointVector::Zero(), Vector3::Zero());
   for (int j = 0; j < kJointCount; ++j) {
-    const VelocityVector pushed = dynamics.acceleration(q, rest, JointVector::Unit(j), Vector3::Zero());
+    const VelocityVector pushed =
+        dynamics.acceleration(q, rest, JointVector::Unit(j), Vector3::Zero());
     const double joint_acceleration = dynamics.selectionMatrix(q).row(j).dot(pushed - drift);
     EXPECT_NEAR(inertia[j] * joint_acceleration, 1, 1e-9) << j;
   }

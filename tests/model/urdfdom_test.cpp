@@ -33,9 +33,10 @@ TEST_F(UrdfdomOracle, ArmJointsAreTheSame) {
 
 TEST_F(UrdfdomOracle, EveryLinksMassIsCounted) {
   editUrdf("name=\"arm_2\"", "mass value=\"", "mass value=\"1");  // 1.55 kg become 11.55
-  addToUrdf("<link name=\"gripper\"><inertial><mass value=\"2\"/><inertia ixx=\".01\" ixy=\"0\" "
-            "ixz=\"0\" iyy=\".01\" iyz=\"0\" izz=\".01\"/></inertial></link><joint name=\"hand\" "
-            "type=\"fixed\"><parent link=\"end_effector\"/><child link=\"gripper\"/></joint>");
+  addToUrdf(
+      "<link name=\"gripper\"><inertial><mass value=\"2\"/><inertia ixx=\".01\" ixy=\"0\" "
+      "ixz=\"0\" iyy=\".01\" iyz=\"0\" izz=\".01\"/></inertial></link><joint name=\"hand\" "
+      "type=\"fixed\"><parent link=\"end_effector\"/><child link=\"gripper\"/></joint>");
   const auto model = parse();
   ASSERT_TRUE(model);
   double total = 0;

@@ -85,21 +85,22 @@ TEST(Faults, SpikesHaveTheirSizeAndTheirShare) {
   const double gyro_sigma = 1.2e-4 / std::sqrt(2.5e-3);
   std::int64_t last_count = 0;
   int samples = 0, spoiled = 0;
-  compare("[{kind: spikes, signal: gyro, start_s: 0.1, duration_s: 10, size_sigma: 50, share: 0.2}]",
-          600, [&](double t, const Plant& clean, const Plant& faulty) {
-            EXPECT_EQ(faulty.sensors().accel_B, clean.sensors().accel_B);
-            const double off = (faulty.sensors().gyro_WB_B - clean.sensors().gyro_WB_B).norm();
-            if (t < 100) {
-              EXPECT_EQ(off, 0);
-              return;
-            }
-            if (clean.sensors().imu_count == last_count) return;
-            last_count = clean.sensors().imu_count;
-            ++samples;
-            if (off == 0) return;
-            ++spoiled;
-            EXPECT_NEAR(off, 50 * gyro_sigma, 1e-12);
-          });
+  compare(
+      "[{kind: spikes, signal: gyro, start_s: 0.1, duration_s: 10, size_sigma: 50, share: 0.2}]",
+      600, [&](double t, const Plant& clean, const Plant& faulty) {
+        EXPECT_EQ(faulty.sensors().accel_B, clean.sensors().accel_B);
+        const double off = (faulty.sensors().gyro_WB_B - clean.sensors().gyro_WB_B).norm();
+        if (t < 100) {
+          EXPECT_EQ(off, 0);
+          return;
+        }
+        if (clean.sensors().imu_count == last_count) return;
+        last_count = clean.sensors().imu_count;
+        ++samples;
+        if (off == 0) return;
+        ++spoiled;
+        EXPECT_NEAR(off, 50 * gyro_sigma, 1e-12);
+      });
   // Binomial: four standard deviations.
   EXPECT_NEAR(spoiled, 0.2 * samples, 4 * std::sqrt(0.16 * samples));
 }
@@ -203,20 +204,21 @@ TEST(Faults, AreRefusedInWords) {
   EXPECT_NE(errorOf({"plant.faults=[{kind: gremlin, start_s: 1, duration_s: 1}]"})
                 .find("kind is 'gremlin'"),
             std::string::npos);
-  EXPECT_NE(errorOf({"plant.fidelity.multibody=reduced_wheels",
-                     "plant.faults=[{kind: wheel_slip, joint: wheel_1, start_s: 1, duration_s: 1}]"})
-                .find("wheels must be bodies"),
-            std::string::npos);
+  EXPECT_NE(
+      errorOf({"plant.fidelity.multibody=reduced_wheels",
+               "plant.faults=[{kind: wheel_slip, joint: wheel_1, start_s: 1, duration_s: 1}]"})
+          .find("wheels must be bodies"),
+      std::string::npos);
   EXPECT_NE(errorOf({"plant.faults=[{kind: wheel_slip, joint: arm_1, start_s: 1, duration_s: 1}]"})
                 .find("joint is 'arm_1'"),
             std::string::npos);
 }
 
 TEST(MotionCapture, SaysWhereTheRobotWasADelayAgo) {
-  Plant plant(plantConfig(
-      "full", {"plant.motion_capture={period_ms: 5, delay_ms: 30, position_noise_m: 0, "
-               "yaw_noise_deg: 0}",
-               "initial={yaw_deg: 20, pitch_deg: 3}"}));
+  Plant plant(
+      plantConfig("full", {"plant.motion_capture={period_ms: 5, delay_ms: 30, position_noise_m: 0, "
+                           "yaw_noise_deg: 0}",
+                           "initial={yaw_deg: 20, pitch_deg: 3}"}));
   std::map<SimTime, Vector3> pose;
   for (double t = 0; t < 150; t += 5) {
     if (t > 0) plant.advanceTo(ms(t), turning());

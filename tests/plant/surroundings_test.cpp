@@ -57,8 +57,8 @@ class PointMass final : public OdeSystem {
   }
   double* state() { return y.data() + 6; }
   double energy() const {
-    return 0.5 * mass_ * point().v_W.squaredNorm() +
-           surroundings.energy(y.data() + 6, point()) - force.dot(point().p_W);
+    return 0.5 * mass_ * point().v_W.squaredNorm() + surroundings.energy(y.data() + 6, point()) -
+           force.dot(point().p_W);
   }
   Touch observe() const { return surroundings.observe(y.data() + 6, point()); }
   double doorAngle() const { return surroundings.door(y.data() + 6).angle; }
@@ -151,7 +151,8 @@ TEST(Door, TurnsItsFrontWithTheLeafToBothSides) {
   p.width = 0.9;
   for (const bool counterclockwise : {true, false}) {
     p.counterclockwise = counterclockwise;
-    p.closed_heading = counterclockwise ? -M_PI / 2 : M_PI / 2;  // across the way, from left or right
+    p.closed_heading =
+        counterclockwise ? -M_PI / 2 : M_PI / 2;  // across the way, from left or right
     const double sign = counterclockwise ? 1 : -1;
     for (const double angle : {0.0, 0.4}) {
       const Face face = doorFace(p, {angle, 1});
@@ -162,7 +163,8 @@ TEST(Door, TurnsItsFrontWithTheLeafToBothSides) {
       EXPECT_NEAR(face.R_WF.determinant(), 1, 1e-15);
       const double h = 1e-6;
       const Matrix3 turn = (doorFace(p, {angle + h, 0}).R_WF - face.R_WF) / h;
-      EXPECT_NEAR((turn.col(2) - face.rate * Vector3::UnitZ().cross(face.R_WF.col(2))).norm(), 0, 1e-5);
+      EXPECT_NEAR((turn.col(2) - face.rate * Vector3::UnitZ().cross(face.R_WF.col(2))).norm(), 0,
+                  1e-5);
       // A push against the front opens it with force times lever.
       const Vector3 leaf = sign * face.R_WF.col(0);
       const Vector3 point = face.p_WF + 0.6 * leaf + Vector3(0, 0, 1);
@@ -178,7 +180,7 @@ TEST(FaceContact, HoldsAPointInStaticBalance) {
   p.wall->heading = M_PI;
   PointMass mass(p, 0.5);
   mass.put({0.2 + 10 / p.contact.stiffness, 0.1, 1}, Vector3::Zero());
-  mass.force << 10, 3, -4;  // within the cone: 5 < 0.7 * 10
+  mass.force << 10, 3, -4;                      // within the cone: 5 < 0.7 * 10
   for (int n = 0; n < 25000; ++n) mass.step();  // 10 s
   const Touch t = mass.observe();
   EXPECT_NEAR((t.force_W + mass.force).norm(), 0, 1e-9);
@@ -187,7 +189,8 @@ TEST(FaceContact, HoldsAPointInStaticBalance) {
   EXPECT_NEAR(mass.point().p_W.x(), 0.2 + 10 / p.contact.stiffness, 1e-9);
   EXPECT_NEAR(mass.point().p_W.y(), 0.1 + 3 / p.contact.tangential_stiffness, 1e-9);
   EXPECT_NEAR(mass.point().p_W.z(), 1 - 4 / p.contact.tangential_stiffness, 1e-9);
-  EXPECT_NEAR((t.foot_W - Vector3(0.2, mass.point().p_W.y(), mass.point().p_W.z())).norm(), 0, 1e-12);
+  EXPECT_NEAR((t.foot_W - Vector3(0.2, mass.point().p_W.y(), mass.point().p_W.z())).norm(), 0,
+              1e-12);
 }
 
 TEST(FaceContact, SlidesWithTheForceOfFrictionAndNoMore) {
@@ -242,7 +245,8 @@ TEST(FaceContact, NeverPullsAndStaysInTheFrictionCone) {
 TEST(FaceContact, EndsAtTheEdges) {
   const Face face = doorFace(plainDoor(), {});
   const auto touches = [&](double y, double z, double depth) {
-    return touch({}, face, {0.2 + depth, y, z}, Vector3::Zero(), {0, 0}).phase != ContactPhase::kNone;
+    return touch({}, face, {0.2 + depth, y, z}, Vector3::Zero(), {0, 0}).phase !=
+           ContactPhase::kNone;
   };
   EXPECT_TRUE(touches(0.699, 1, 1e-3));
   EXPECT_FALSE(touches(0.701, 1, 1e-3));  // beyond the hinge

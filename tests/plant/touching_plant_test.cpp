@@ -154,12 +154,14 @@ TEST(TouchingPlant, AcceleratesAsUnderThatForceOnTheEndEffector) {
     EXPECT_LT((touch.foot_W - ee.p_WE).norm(), 3e-3);
     ASSERT_GT(touch.force_W.norm(), 5);
     dynamics.derivative(0, y.data(), ydot.data());
-    const VelocityVector expected = model.acceleration(x.head<kPositionDim>(), x.tail<kVelocityDim>(),
-                                                       JointVector::Zero(), touch.force_W);
+    const VelocityVector expected = model.acceleration(
+        x.head<kPositionDim>(), x.tail<kVelocityDim>(), JointVector::Zero(), touch.force_W);
     const Vector3 arm = dynamics.multibody().jointAcceleration(ydot.data()).joint.tail<3>();
     EXPECT_LT((arm - expected.tail<3>()).norm(), 1e-9 * expected.norm());
-    EXPECT_LT((dynamics.multibody().baseAcceleration(ydot.data()).a_WK_W.head<2>() -
-               expected.head<2>()).norm(), 1e-9 * expected.norm());
+    EXPECT_LT(
+        (dynamics.multibody().baseAcceleration(ydot.data()).a_WK_W.head<2>() - expected.head<2>())
+            .norm(),
+        1e-9 * expected.norm());
   }
 }
 

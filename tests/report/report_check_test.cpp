@@ -79,20 +79,21 @@ TEST(CheckReportData, RefusesLanesTablesAndViewsThatContradictThemselves) {
   EXPECT_THAT(complaint(data), StrEq(""));
   ReportData wrong = data;
   wrong.groups[0].lanes[0].stretches[1].start_s = 0.5;
-  EXPECT_THAT(complaint(wrong), StrEq("report: lane 'drive' has 'off' from 0.5 s to 2 s at index 1, "
-                                      "before the one before it has ended"));
+  EXPECT_THAT(complaint(wrong),
+              StrEq("report: lane 'drive' has 'off' from 0.5 s to 2 s at index 1, "
+                    "before the one before it has ended"));
   wrong = data;
   wrong.tables[0].rows[0].cells.pop_back();
-  EXPECT_THAT(complaint(wrong),
-              StrEq("report: table 'checks' has 1 cells in row 0 for 2 columns"));
+  EXPECT_THAT(complaint(wrong), StrEq("report: table 'checks' has 1 cells in row 0 for 2 columns"));
   wrong = data;
   wrong.headline[0].document = "other.md";
   EXPECT_THAT(complaint(wrong), StrEq("report: fact 'what to do' opens 'other.md', which is no "
                                       "document of it"));
   wrong = data;
   wrong.view->end_s = 3;
-  EXPECT_THAT(complaint(wrong), StrEq("report: the view spans 0.5 s to 3 s, must lie in the run's 0 "
-                                      "s to 2 s"));
+  EXPECT_THAT(complaint(wrong),
+              StrEq("report: the view spans 0.5 s to 3 s, must lie in the run's 0 "
+                    "s to 2 s"));
 }
 
 TEST(CheckReportData, RefusesAReplayThatCannotBeDrawn) {

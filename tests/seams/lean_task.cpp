@@ -19,10 +19,10 @@ class LeanTask final : public AddedTaskOf<2> {
 }  // namespace
 
 void addLeanTask() {
-  taskKinds().add({"lean", "pitch and roll of the base",
-                   [](const RobotParameters&, const StateVector& rest) {
-                     return std::make_shared<LeanTask>("lean", rest.segment<2>(kPitch));
-                   }});
+  taskKinds().add(
+      {"lean", "pitch and roll of the base", [](const RobotParameters&, const StateVector& rest) {
+         return std::make_shared<LeanTask>("lean", rest.segment<2>(kPitch));
+       }});
 }
 
 }  // namespace ballbot::test

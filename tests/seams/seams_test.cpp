@@ -1,5 +1,5 @@
-// A sensor, a task and a control law that stand in one file each, outside of the program: a run with
-// them is recorded, exported, reported, and the sensor is a variable of the FMU.
+// A sensor, a task and a control law that stand in one file each, outside of the program: a run
+// with them is recorded, exported, reported, and the sensor is a variable of the FMU.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -36,7 +36,8 @@ class Seams : public ::testing::Test {
   Seams() : base_(fs::temp_directory_path() / ("ballbot_seams_" + std::to_string(::getpid()))) {}
   ~Seams() override { fs::remove_all(base_); }
 
-  RunResult run(const std::string& name, std::vector<std::string> changes, RunOptions options = {}) {
+  RunResult run(const std::string& name, std::vector<std::string> changes,
+                RunOptions options = {}) {
     changes.push_back("duration_s=2");
     changes.push_back("plant.added_sensors={drive_thermometer: {time_constant_s: 20}}");
     options.in_process = true;
@@ -51,8 +52,7 @@ class Seams : public ::testing::Test {
   fs::path base_;
 };
 
-const std::string kTasks =
-    "controller.mpc.tasks.lean={weight: 3}";
+const std::string kTasks = "controller.mpc.tasks.lean={weight: 3}";
 const std::string kFrames =
     "controller.mpc.tasks.frames=[{name: elbow, body: arm_2, position: {weight: 2}}, "
     "{name: base, body: base, orientation: {weight: 1}}]";
@@ -105,12 +105,14 @@ TEST_F(Seams, TheTaskIsFollowed) {
   // The ball must run away to lean on, so only a part of what is asked for is reached.
   const double plain = leanAt("plain", "controller.mpc.tasks.lean={weight: 0}");
   const double asked = leanAt(
-      "asked", "controller.mpc.tasks.lean={weight: 2000, reference: {moves: [{at_s: 1, by: [0.05, 0]}]}}");
+      "asked",
+      "controller.mpc.tasks.lean={weight: 2000, reference: {moves: [{at_s: 1, by: [0.05, 0]}]}}");
   EXPECT_GT(asked - plain, 0.01) << "rad";
 }
 
 TEST_F(Seams, ALawOfOnesOwnBalancesAndRecords) {
-  const RunResult result = run("law", {"controller.kind=gentle", "controller.gentle={share_of_gain: 0.9}"});
+  const RunResult result =
+      run("law", {"controller.kind=gentle", "controller.gentle={share_of_gain: 0.9}"});
   EXPECT_FALSE(result.fell);
   const LogTable plan = *findTable(logTables(readRunLog(result.folder.logFile())), "plan");
   EXPECT_THAT(columnNames(plan), Contains("value_of_state"));

@@ -118,14 +118,16 @@ TEST_F(StudyAnswer, NamesTheStepThatChangesAMetricByMoreThanTheSeedsScatter) {
   const std::vector<CaseResult> ideal = runsWithTilt({5, 6, 7}), springs = runsWithTilt({6, 7, 8}),
                                 noise = runsWithTilt({9, 10, 11});
   StudyCurve all;
-  for (const auto& [label, runs] : {std::pair("ideal", &ideal), {"springs", &springs}, {"noise", &noise}}) {
+  for (const auto& [label, runs] :
+       {std::pair("ideal", &ideal), {"springs", &springs}, {"noise", &noise}}) {
     all.points.push_back({label, 0, {}, {}});
     for (const CaseResult& r : *runs) all.points.back().results.push_back(&r);
   }
   view_.panels = {{"", {all}}};
-  EXPECT_THAT(studyMetrics(study_, view_),
-              ElementsAre("largest_tilt_deg [deg]: median ideal 6, springs 7, noise 10; changed by more "
-                          "than the seeds scatter at 'noise' (7 to 10)."));
+  EXPECT_THAT(
+      studyMetrics(study_, view_),
+      ElementsAre("largest_tilt_deg [deg]: median ideal 6, springs 7, noise 10; changed by more "
+                  "than the seeds scatter at 'noise' (7 to 10)."));
 }
 
 TEST_F(StudyAnswer, SaysWhereAMetricIsLeastAndLargestAmongRunsThatStayedUp) {
@@ -140,9 +142,11 @@ TEST_F(StudyAnswer, SaysWhereAMetricIsLeastAndLargestAmongRunsThatStayedUp) {
   curves[1].points[3].results.push_back(&fallen.front());
   curves[0].points[1].label = "10";
   curves[1].points[2].label = "20";
-  EXPECT_THAT(studyMetrics(study_, view_),
-              ElementsAre("largest_tilt_deg [deg]: median from 3 (delay 10 ms, shaping none, bandwidth 10 Hz) "
-                          "to 8.5 (delay 10 ms, shaping matched, bandwidth 20 Hz)."));
+  EXPECT_THAT(
+      studyMetrics(study_, view_),
+      ElementsAre(
+          "largest_tilt_deg [deg]: median from 3 (delay 10 ms, shaping none, bandwidth 10 Hz) "
+          "to 8.5 (delay 10 ms, shaping matched, bandwidth 20 Hz)."));
 }
 
 TEST_F(StudyAnswer, HasNothingToCompareWithoutCurvesOrNumbers) {

@@ -114,7 +114,8 @@ TEST(Study, WhatIsWrongWithAnyCaseIsSaidBeforeOneRuns) {
                                    "plant.transport_delay_ticks=-3", "--quiet"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("smoke: 4 of 4 configurations cannot run; nothing was started:"));
-  EXPECT_THAT(run.err, HasSubstr("--set plant.transport_delay_ticks=-3: transport_delay_ticks is -3, must be between 0 and 1000"));
+  EXPECT_THAT(run.err, HasSubstr("--set plant.transport_delay_ticks=-3: transport_delay_ticks is "
+                                 "-3, must be between 0 and 1000"));
   EXPECT_THAT(run.err, HasSubstr("in: bandwidth 20 Hz, shaping none, seed 1 and 3 more"));
   EXPECT_FALSE(fs::exists(folder / "study"));
   EXPECT_THAT(runBallbot({"study", "configs"}).err, HasSubstr("configs"));
@@ -123,17 +124,20 @@ TEST(Study, WhatIsWrongWithAnyCaseIsSaidBeforeOneRuns) {
 
 /// A study of the balancing robot, with `more` lines.
 std::string writeStudy(const std::string& path, const std::string& more) {
-  std::ofstream(path) << "name: tried\nscenario: " BALLBOT_SOURCE_DIR "/configs/scenarios/balance.yaml\n"
+  std::ofstream(path) << "name: tried\nscenario: " BALLBOT_SOURCE_DIR
+                         "/configs/scenarios/balance.yaml\n"
                       << more;
   return path;
 }
 
 TEST(Study, MetricsThatNoRunHasAreNamedBeforeOneRuns) {
   const TemporaryFolder folder;
-  const std::string typo = writeStudy(folder / "typo.yaml", "report: {metrics: [largest_tlit_deg]}\n");
+  const std::string typo =
+      writeStudy(folder / "typo.yaml", "report: {metrics: [largest_tlit_deg]}\n");
   Finished run = runBallbot({"study", typo, "--out", folder / "study", "--quiet"});
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("report.metrics names 'largest_tlit_deg', which no run has; there are: "));
+  EXPECT_THAT(run.err,
+              HasSubstr("report.metrics names 'largest_tlit_deg', which no run has; there are: "));
   EXPECT_THAT(run.err, HasSubstr("largest_tilt_deg"));
   const std::string clash = writeStudy(
       folder / "clash.yaml", "axes: [{name: plans, paths: duration_s, values: [1, 2]}]\n");
@@ -158,8 +162,9 @@ TEST_P(ShippedStudy, RunsToItsEndAndLeavesAllItsFiles) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedStudy,
-                         ::testing::Values("delay_margin", "fidelity_ladder", "gain_margin", "mpc_rate",
-                                           "noise", "sea_bandwidth", "sea_stiffness_arm", "smoke"),
+                         ::testing::Values("delay_margin", "fidelity_ladder", "gain_margin",
+                                           "mpc_rate", "noise", "sea_bandwidth",
+                                           "sea_stiffness_arm", "smoke"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(Study, ResumingAsksForTheSameStudy) {

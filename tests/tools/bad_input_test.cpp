@@ -1,10 +1,9 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "tests/tools/program.hpp"
 
@@ -24,12 +23,14 @@ class BadScenario : public ::testing::TestWithParam<BadInput> {};
 
 TEST_P(BadScenario, IsRefusedInWordsBeforeAnythingIsLeftBehind) {
   const TemporaryFolder folder;
-  std::vector<std::string> arguments = {"run", scenarioPath("balance"), "--quiet", "--out", folder / "run"};
+  std::vector<std::string> arguments = {"run", scenarioPath("balance"), "--quiet", "--out",
+                                        folder / "run"};
   for (const std::string& a : GetParam().arguments) arguments.push_back(a);
   const Finished run = runBallbot(arguments, 20);
   EXPECT_EQ(run.exit_code, 2) << run.err;
   EXPECT_THAT(run.err, HasSubstr(GetParam().words));
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << "one message, one line: " << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1)
+      << "one message, one line: " << run.err;
   EXPECT_EQ(run.out, "");
   EXPECT_FALSE(std::ifstream(folder / "run/scenario.yaml").good());
 }
@@ -41,22 +42,38 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"UnknownSection", {"--set", "plnat.x=1"}, "unknown key 'plnat'"},
         BadInput{"WrongType", {"--set", "duration_s=long"}, "duration_s is long, must be a number"},
         BadInput{"OutOfRange", {"--set", "duration_s=-1"}, "duration_s is -1, must be between"},
-        BadInput{"WrongChoice", {"--set", "plant.fidelity.actuators=magic"}, "must be one of: ideal, series_elastic"},
-        BadInput{"Unschedulable", {"--set", "rates.tracker_period_us=333"}, "Nearest: 300 us, 400 us"},
-        BadInput{"PlansTooOldToAct", {"--set", "rates.planner_period_us=200000"}, "fallback_after_ms is 100, must be at least 212"},
+        BadInput{"WrongChoice",
+                 {"--set", "plant.fidelity.actuators=magic"},
+                 "must be one of: ideal, series_elastic"},
+        BadInput{
+            "Unschedulable", {"--set", "rates.tracker_period_us=333"}, "Nearest: 300 us, 400 us"},
+        BadInput{"PlansTooOldToAct",
+                 {"--set", "rates.planner_period_us=200000"},
+                 "fallback_after_ms is 100, must be at least 212"},
         BadInput{"ArmBeyondItsStop",
-                 {"--set", "controller.mpc.tasks.arm_position={weight: 5, reference: {moves: [{at_s: 2, by: [0, 0, 2]}]}}"},
+                 {"--set",
+                  "controller.mpc.tasks.arm_position={weight: 5, reference: {moves: [{at_s: 2, by: "
+                  "[0, 0, 2]}]}}"},
                  "asks at 2 s for 4.171 rad of joint 3 ('arm_3'), must be between 0 and 2.6"},
-        BadInput{"TorqueLimitBelowTheLoad", {"--set", "robot.arm_torque_limit_Nm=1"}, "to stand still with the arm at"},
-        BadInput{"TorqueForNothing", {"--set", "controller.mpc.tasks.arm_torque.weight=0"}, "weight is 0, must be more than 0"},
-        BadInput{"UnknownMetric", {"--set", "requirements.beauty.above=3"}, "unknown metric 'beauty'"},
+        BadInput{"TorqueLimitBelowTheLoad",
+                 {"--set", "robot.arm_torque_limit_Nm=1"},
+                 "to stand still with the arm at"},
+        BadInput{"TorqueForNothing",
+                 {"--set", "controller.mpc.tasks.arm_torque.weight=0"},
+                 "weight is 0, must be more than 0"},
+        BadInput{
+            "UnknownMetric", {"--set", "requirements.beauty.above=3"}, "unknown metric 'beauty'"},
         BadInput{"NoLimit", {"--set", "requirements.largest_tilt_deg={}"}, "has no limit"},
         BadInput{"NoEquals", {"--set", "duration_s"}, "write path=value"},
         BadInput{"MissingUrdf", {"--set", "robot.urdf=nowhere.urdf"}, "nowhere.urdf"},
-        BadInput{"NoGravity", {"--set", "robot.gravity_m_per_s2=0"}, "gravity_m_per_s2 is 0, must be between"},
-        BadInput{"CentreOfMassFarOff", {"--set", "robot.nominal_arm_rad=[0,2,0]", "--set", "robot.payload_mass_kg=40"},
+        BadInput{"NoGravity",
+                 {"--set", "robot.gravity_m_per_s2=0"},
+                 "gravity_m_per_s2 is 0, must be between"},
+        BadInput{"CentreOfMassFarOff",
+                 {"--set", "robot.nominal_arm_rad=[0,2,0]", "--set", "robot.payload_mass_kg=40"},
                  "no equilibrium within 30 degrees for the arm at (0.000, 2.000, 0.000) rad"},
-        BadInput{"BlindWeights", {"--set", "controller.lqr.weights={ball_position: 1e-300}"},
+        BadInput{"BlindWeights",
+                 {"--set", "controller.lqr.weights={ball_position: 1e-300}"},
                  "kind: no such law balances this robot: Riccati"},
         BadInput{"UnknownEstimator", {"--set", "estimator.kind=oracle"}, "kind is 'oracle'"},
         BadInput{"UnknownLaw", {"--set", "controller.kind=magic"}, "kind is 'magic'"}),
@@ -82,9 +99,10 @@ TEST(BadFiles, AVerbThatIsNoneIsNamedWithTheNearest) {
 
 TEST(BadFiles, ARequirementOnAMisspeltMetricNamesTheNearest) {
   const TemporaryFolder folder;
-  const Finished run = runBallbot({"run", scenarioPath("balance"), "--quiet", "--out", folder / "run", "--set",
-                                   "requirements={largest_tilt_dge: {below: 1}}"},
-                                  20);
+  const Finished run =
+      runBallbot({"run", scenarioPath("balance"), "--quiet", "--out", folder / "run", "--set",
+                  "requirements={largest_tilt_dge: {below: 1}}"},
+                 20);
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("did you mean 'largest_tilt_deg'?"));
 }
@@ -97,9 +115,11 @@ TEST(BadFiles, AnErrorNamesFileLineAndColumn) {
   // Absolute includes: std::filesystem's operator/ lets an absolute path win.
   text.replace(text.find("pitch_deg: 3"), 12, "pitch_deg: steep");
   std::ofstream(folder / "bad.yaml") << text;
-  const Finished run = runBallbot({"run", folder / "bad.yaml", "--quiet", "--out", folder / "run"}, 20);
+  const Finished run =
+      runBallbot({"run", folder / "bad.yaml", "--quiet", "--out", folder / "run"}, 20);
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, ::testing::ContainsRegex("bad\\.yaml:[0-9]+:14: pitch_deg is steep, must be a number"));
+  EXPECT_THAT(run.err, ::testing::ContainsRegex(
+                           "bad\\.yaml:[0-9]+:14: pitch_deg is steep, must be a number"));
 }
 
 TEST(BadFiles, LimitsThatMayBeDegreesDeserveAWordAndTheRunGoesOn) {
@@ -110,11 +130,13 @@ TEST(BadFiles, LimitsThatMayBeDegreesDeserveAWordAndTheRunGoesOn) {
   text.replace(text.find(limits), limits.size(), "lower=\"-177.6\" upper=\"177.6\"");
   std::ofstream(folder / "degrees.urdf") << text;
   const Finished run =
-      runBallbot({"run", scenarioPath("balance"), "--in-process", "--quiet", "--no-report", "--set", "requirements={}",
-                  "--set", "duration_s=0.1", "--set", "robot.urdf=" + (folder / "degrees.urdf"), "--out", folder / "run"},
+      runBallbot({"run", scenarioPath("balance"), "--in-process", "--quiet", "--no-report", "--set",
+                  "requirements={}", "--set", "duration_s=0.1", "--set",
+                  "robot.urdf=" + (folder / "degrees.urdf"), "--out", folder / "run"},
                  60);
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(run.err, HasSubstr("degrees.urdf:275: joint 'arm_1_joint' has a limit at -177.6 rad"));
+  EXPECT_THAT(run.err,
+              HasSubstr("degrees.urdf:275: joint 'arm_1_joint' has a limit at -177.6 rad"));
 }
 
 TEST(BadFiles, AFilledFolderIsNotOverwritten) {
@@ -136,7 +158,8 @@ TEST(BadFiles, AFolderThatIsNoRunIsRefused) {
 }
 
 TEST(Help, EveryVerbHasExamplesAndExitCodes) {
-  for (const char* verb : {"run", "check", "compare", "export", "plant", "controller", "relay", "doctor"}) {
+  for (const char* verb :
+       {"run", "check", "compare", "export", "plant", "controller", "relay", "doctor"}) {
     const Finished help = runBallbot({verb, "--help"});
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_THAT(help.out, HasSubstr(std::string("ballbot ") + verb)) << verb << " has no example";
@@ -151,7 +174,8 @@ TEST(Doctor, SaysWhatItFoundAsJson) {
   EXPECT_EQ(json["healthy"].get<bool>(), doctor.exit_code == 0);
   EXPECT_EQ(json["checks"].size(), 6u);
   for (const auto& check : json["checks"]) {
-    EXPECT_EQ(check["level"] == "ok", check["mend"] == "") << "a fault comes with its mend: " << check;
+    EXPECT_EQ(check["level"] == "ok", check["mend"] == "")
+        << "a fault comes with its mend: " << check;
   }
 }
 

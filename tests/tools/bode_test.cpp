@@ -22,11 +22,13 @@ nlohmann::json bodeJson(std::vector<std::string> more) {
 TEST(Bode, GivesShapingActuatorAndCrossoverAsNumbers) {
   const auto json = bodeJson({});
   EXPECT_EQ(json["shaping"]["zero_rad_per_s"], 100);
-  EXPECT_NEAR(json["actuators"]["wheel"]["blocked_bandwidth_Hz"].get<double>(), 44, 2);  // docs/theory/actuator.md
+  EXPECT_NEAR(json["actuators"]["wheel"]["blocked_bandwidth_Hz"].get<double>(), 44,
+              2);  // docs/theory/actuator.md
   const auto& loop = json["loop_at_the_wheels"]["series_elastic_drives"];
   EXPECT_TRUE(loop["stable"].get<bool>());
   EXPECT_GT(loop["crossover_rad_per_s"].get<double>(), 10.4);  // twice the unstable pole
-  EXPECT_NEAR(json["delay_ms"].get<double>(), 1.0, 1e-9);      // two drive ticks and half a tracker period
+  EXPECT_NEAR(json["delay_ms"].get<double>(), 1.0,
+              1e-9);  // two drive ticks and half a tracker period
 }
 
 TEST(Bode, ComputesTheShapingFromTheActuatorsBandwidth) {
@@ -37,7 +39,9 @@ TEST(Bode, ComputesTheShapingFromTheActuatorsBandwidth) {
 
 TEST(Bode, WritesEveryCurveAsCsvAndAPicture) {
   const TemporaryFolder folder;
-  const Finished run = runBallbot({"bode", scenarioPath("balance"), "--csv", folder / "bode.csv", "--out", folder / "bode.svg"}, 60);
+  const Finished run = runBallbot(
+      {"bode", scenarioPath("balance"), "--csv", folder / "bode.csv", "--out", folder / "bode.svg"},
+      60);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("crossover"));
   std::istringstream csv(readFile(folder / "bode.csv"));
@@ -46,7 +50,8 @@ TEST(Bode, WritesEveryCurveAsCsvAndAPicture) {
   EXPECT_THAT(header, StartsWith("frequency_Hz,shaping_gain"));
   int rows = 0;
   while (std::getline(csv, row)) {
-    EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(header.begin(), header.end(), ','));
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','),
+              std::count(header.begin(), header.end(), ','));
     EXPECT_EQ(row.find("nan"), std::string::npos);
     ++rows;
   }
@@ -55,8 +60,10 @@ TEST(Bode, WritesEveryCurveAsCsvAndAPicture) {
 }
 
 TEST(Bode, SaysWhenTheCostDoesNotSeeTheBall) {
-  const Finished run = runBallbot({"bode", scenarioPath("balance"), "--set", "controller.mpc.tasks.ball_position.weight=0",
-                                   "--set", "controller.mpc.tasks.ball_velocity.weight=0"}, 60);
+  const Finished run = runBallbot(
+      {"bode", scenarioPath("balance"), "--set", "controller.mpc.tasks.ball_position.weight=0",
+       "--set", "controller.mpc.tasks.ball_velocity.weight=0"},
+      60);
   EXPECT_NE(run.exit_code, 0);
   EXPECT_THAT(run.err, HasSubstr("Riccati equation has no usable solution"));
 }

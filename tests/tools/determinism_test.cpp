@@ -1,10 +1,9 @@
-#include <signal.h>
-#include <unistd.h>
-
 #include <filesystem>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <signal.h>
+#include <unistd.h>
 
 #include "tests/tools/program.hpp"
 
@@ -14,7 +13,8 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kShort = {"--set", "duration_s=1.5", "--quiet", "--json", "--no-report"};
+const std::vector<std::string> kShort = {"--set", "duration_s=1.5", "--quiet", "--json",
+                                         "--no-report"};
 
 /// Digest of a short run of `balance`, which must come to its end.
 std::string digestOf(const std::string& out, const std::vector<std::string>& more) {
@@ -41,15 +41,16 @@ TEST(Determinism, TheWayTwoProcessesMeetDoesNotChangeTheDigest) {
 TEST(Determinism, EveryFileButTimingIsTheSame) {
   const TemporaryFolder folder;
   for (const char* name : {"a", "b"}) {
-    const Finished run = runBallbot(
-        {"run", scenarioPath("balance"), "--set", "duration_s=1", "--quiet", "--out", folder / name});
+    const Finished run = runBallbot({"run", scenarioPath("balance"), "--set", "duration_s=1",
+                                     "--quiet", "--out", folder / name});
     ASSERT_NE(run.exit_code, 2) << run.err;
   }
   int compared = 0;
   for (const auto& entry : fs::directory_iterator(folder / "a")) {
     const std::string name = entry.path().filename().string();
     if (name == "timing.json") continue;
-    EXPECT_TRUE(readFile(entry.path().string()) == readFile((folder / "b") + "/" + name)) << name << " differs";
+    EXPECT_TRUE(readFile(entry.path().string()) == readFile((folder / "b") + "/" + name))
+        << name << " differs";
     ++compared;
   }
   EXPECT_EQ(compared, 6) << "scenario, URDF, manifest, log, summary, report";
@@ -59,7 +60,8 @@ TEST(Determinism, ReplacingThePlantProcessInTheMiddleDoesNotChangeTheDigest) {
   const TemporaryFolder folder;
   const std::string digest = digestOf(folder / "whole", {});
   EXPECT_EQ(digestOf(folder / "replaced", {"--replace-plant-at", "0.7"}), digest);
-  EXPECT_EQ(digestOf(folder / "replaced_in_process", {"--in-process", "--replace-plant-at", "0.7"}), digest);
+  EXPECT_EQ(digestOf(folder / "replaced_in_process", {"--in-process", "--replace-plant-at", "0.7"}),
+            digest);
 }
 
 TEST(Determinism, LossDuplicationAndReorderingDoNotChangeTheDigest) {
@@ -68,9 +70,10 @@ TEST(Determinism, LossDuplicationAndReorderingDoNotChangeTheDigest) {
   const std::string port = std::to_string(21000 + ::getpid() % 20000);
   const std::string controller_url = "udpm://239.255.77.1:" + port + "?ttl=0";
   const std::string plant_url = "udpm://239.255.77.2:" + port + "?ttl=0";
-  Program plant({"plant", scenarioPath("balance"), "--lcm-url", plant_url, "--set", "duration_s=1.5"});
-  Program relay({"relay", controller_url, plant_url, "--loss", "0.2", "--duplication", "0.2", "--reordering",
-                 "0.3", "--json"});
+  Program plant(
+      {"plant", scenarioPath("balance"), "--lcm-url", plant_url, "--set", "duration_s=1.5"});
+  Program relay({"relay", controller_url, plant_url, "--loss", "0.2", "--duplication", "0.2",
+                 "--reordering", "0.3", "--json"});
   EXPECT_EQ(digestOf(folder / "relayed", {"--lcm-url", controller_url}), digest);
   relay.signal(SIGINT);
   const Finished relayed = relay.finish(10);

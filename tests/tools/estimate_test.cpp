@@ -27,8 +27,8 @@ const char* const kPush =
 json summaryOf(const std::string& run) { return json::parse(readFile(run + "/summary.json")); }
 
 json runScenario(const std::string& out, std::vector<std::string> settings) {
-  std::vector<std::string> arguments{"run",         scenarioPath("balance"), "--quiet",
-                                     "--no-report", "--in-process",          "--out", out};
+  std::vector<std::string> arguments{
+      "run", scenarioPath("balance"), "--quiet", "--no-report", "--in-process", "--out", out};
   settings.push_back("requirements={}");
   for (const std::string& setting : settings) {
     arguments.push_back("--set");
@@ -120,10 +120,10 @@ TEST(Estimator, RecoversInTheLoopFromATiltTenDegreesWrong) {
 TEST(Estimator, FindsItsPlaceInTheRoomByMotionCapture) {
   // It is placed 20 degrees off and learns so from the room.
   const TemporaryFolder folder;
-  const json summary = runScenario(
-      folder / "run",
-      {"duration_s=4", "plant.motion_capture={}", "initial.yaw_deg=20", "estimator.external_pose={}",
-       "estimator.initial.yaw_deg=30", "estimator.initial.position_m=0.1"});
+  const json summary =
+      runScenario(folder / "run", {"duration_s=4", "plant.motion_capture={}", "initial.yaw_deg=20",
+                                   "estimator.external_pose={}", "estimator.initial.yaw_deg=30",
+                                   "estimator.initial.position_m=0.1"});
   EXPECT_LT(summary["metrics"]["yaw_error_deg"].get<double>(), 1);
   EXPECT_LT(summary["metrics"]["position_error_m"].get<double>(), 5e-3);
   EXPECT_FALSE(summary["fell"].get<bool>());

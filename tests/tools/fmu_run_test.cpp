@@ -86,9 +86,11 @@ TEST(FmuRun, ADamagedFmuIsBadInputWhereverThePlantLivesAndLeavesNoFolder) {
   const TemporaryFolder folder;
   std::ofstream(folder / "bad.fmu") << "PK, and then nothing of an archive";
   for (const bool in_process : {true, false}) {
-    std::vector<std::string> arguments = {"run", scenarioPath("balance"), "--quiet", "--no-report", "--out",
-                                          folder / "run", "--set",
-                                          "fmus=[{name: plant, file: " + folder / "bad.fmu" + "}]"};
+    std::vector<std::string> arguments = {
+        "run",     scenarioPath("balance"),
+        "--quiet", "--no-report",
+        "--out",   folder / "run",
+        "--set",   "fmus=[{name: plant, file: " + folder / "bad.fmu" + "}]"};
     if (in_process) arguments.push_back("--in-process");
     const Finished run = runBallbot(arguments, 60);
     EXPECT_EQ(run.exit_code, 2) << run.err;

@@ -1,5 +1,5 @@
-// Margins twice: from the linear loop of `ballbot bode`, and from the whole robot, nonlinear, with noise,
-// with a gain or a delay put into its loop.
+// Margins twice: from the linear loop of `ballbot bode`, and from the whole robot, nonlinear, with
+// noise, with a gain or a delay put into its loop.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -24,9 +24,10 @@ class Margins : public ::testing::Test {
   static bool falls(const std::string& insertion) {
     const TemporaryFolder folder;
     const Finished run =
-        runBallbot({"run", scenarioPath("balance"), "--in-process", "--quiet", "--json", "--no-report", "--set",
-                    "duration_s=8", "--set", "requirements={}", "--set", "plant.fidelity.multibody=reduced_wheels",
-                    "--set", "plant.wheel_loop_insertion={" + insertion + "}", "--out", folder / "run"},
+        runBallbot({"run", scenarioPath("balance"), "--in-process", "--quiet", "--json",
+                    "--no-report", "--set", "duration_s=8", "--set", "requirements={}", "--set",
+                    "plant.fidelity.multibody=reduced_wheels", "--set",
+                    "plant.wheel_loop_insertion={" + insertion + "}", "--out", folder / "run"},
                    120);
     EXPECT_LE(run.exit_code, 1) << run.err;
     return nlohmann::json::parse(run.out)["fell"].get<bool>();
@@ -48,7 +49,8 @@ TEST_F(Margins, TheRobotTakesTheGainThatTheLinearLoopTakes) {
 TEST_F(Margins, TheRobotTakesTheDelayThatTheLinearLoopTakes) {
   const double ticks = linear("wheel_delay_margin_ms") / 0.4;  // the drives' period
   EXPECT_FALSE(falls(fmt::format("delay_ticks: {}", std::lround(0.8 * ticks))));
-  // In between it swings, by 20 degrees at 1.4, and the plan's limits of tilt and wheel rates keep it up.
+  // In between it swings, by 20 degrees at 1.4, and the plan's limits of tilt and wheel rates keep
+  // it up.
   EXPECT_TRUE(falls(fmt::format("delay_ticks: {}", std::lround(1.7 * ticks))));
 }
 

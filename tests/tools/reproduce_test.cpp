@@ -15,18 +15,24 @@ const std::string kScenarios = std::string(BALLBOT_SOURCE_DIR) + "/configs/scena
 
 TEST(Reproduce, RefusesAnExperimentItDoesNotKnowAndListsThoseItDoes) {
   const TemporaryFolder folder;
-  const Finished run = runBallbot({"reproduce", "--only", "door_7N", "--scenarios", kScenarios, "--out", folder / "out"}, 20);
+  const Finished run = runBallbot(
+      {"reproduce", "--only", "door_7N", "--scenarios", kScenarios, "--out", folder / "out"}, 20);
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("--only door_7N: no such experiment; there are: ee_pose_tracking, disturbance_ball"));
+  EXPECT_THAT(
+      run.err,
+      HasSubstr(
+          "--only door_7N: no such experiment; there are: ee_pose_tracking, disturbance_ball"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 /// Short versions of two of them: what is written and said, not whether the paper is met.
 TEST(Reproduce, WritesOnePageWithPicturesVerdictsAndLinks) {
   const TemporaryFolder folder;
-  const Finished run = runBallbot({"reproduce", "--only", "disturbance_ball", "--only", "disturbance_ee", "--in-process",
-                                   "--quiet", "--json", "--scenarios", kScenarios, "--out", folder / "out",
-                                   "--set", "duration_s=3", "--set", "plant.fidelity.multibody=reduced_wheels"}, 300);
+  const Finished run = runBallbot(
+      {"reproduce", "--only", "disturbance_ball", "--only", "disturbance_ee", "--in-process",
+       "--quiet", "--json", "--scenarios", kScenarios, "--out", folder / "out", "--set",
+       "duration_s=3", "--set", "plant.fidelity.multibody=reduced_wheels"},
+      300);
   const auto json = nlohmann::json::parse(run.out, nullptr, false);
   ASSERT_FALSE(json.is_discarded()) << run.err;
   EXPECT_EQ(run.exit_code, json["passed"].get<bool>() ? 0 : 1);
@@ -46,10 +52,27 @@ TEST(Reproduce, WritesOnePageWithPicturesVerdictsAndLinks) {
 /// Two seeds of one experiment, shortened: how many pass, and the spread of every number.
 TEST(Reproduce, TellsHowManySeedsPassAndHowFarTheirNumbersSpread) {
   const TemporaryFolder folder;
-  const Finished run = runBallbot({"reproduce", "--only", "disturbance_ball", "--seeds", "3", "--jobs", "2", "--in-process",
-                                   "--quiet", "--json", "--scenarios", kScenarios, "--out", folder / "out", "--set",
-                                   "duration_s=2", "--set", "plant.fidelity.multibody=reduced_wheels", "--set",
-                                   "requirements={largest_tilt_deg: {below: 20}}"}, 300);
+  const Finished run = runBallbot({"reproduce",
+                                   "--only",
+                                   "disturbance_ball",
+                                   "--seeds",
+                                   "3",
+                                   "--jobs",
+                                   "2",
+                                   "--in-process",
+                                   "--quiet",
+                                   "--json",
+                                   "--scenarios",
+                                   kScenarios,
+                                   "--out",
+                                   folder / "out",
+                                   "--set",
+                                   "duration_s=2",
+                                   "--set",
+                                   "plant.fidelity.multibody=reduced_wheels",
+                                   "--set",
+                                   "requirements={largest_tilt_deg: {below: 20}}"},
+                                  300);
   const auto json = nlohmann::json::parse(run.out, nullptr, false);
   ASSERT_FALSE(json.is_discarded()) << run.err;
   EXPECT_EQ(run.exit_code, 0) << run.out;
@@ -70,10 +93,12 @@ TEST(Reproduce, TellsHowManySeedsPassAndHowFarTheirNumbersSpread) {
 
 TEST(Reproduce, SaysWhichSeedsMissedWhatAndFails) {
   const TemporaryFolder folder;
-  const Finished run = runBallbot({"reproduce", "--only", "disturbance_ball", "--seeds", "2", "--in-process", "--quiet",
-                                   "--scenarios", kScenarios, "--out", folder / "out", "--set", "duration_s=1", "--set",
-                                   "plant.fidelity.multibody=reduced_wheels", "--set",
-                                   "requirements={largest_tilt_deg: {below: 0.1}}"}, 300);
+  const Finished run =
+      runBallbot({"reproduce", "--only", "disturbance_ball", "--seeds", "2", "--in-process",
+                  "--quiet", "--scenarios", kScenarios, "--out", folder / "out", "--set",
+                  "duration_s=1", "--set", "plant.fidelity.multibody=reduced_wheels", "--set",
+                  "requirements={largest_tilt_deg: {below: 0.1}}"},
+                 300);
   EXPECT_EQ(run.exit_code, 1) << run.err;
   EXPECT_THAT(run.out, HasSubstr("disturbance_ball, seeds 1 to 2: 0 passed"));
   EXPECT_THAT(run.out, HasSubstr("seed 2: largest_tilt_deg is "));
