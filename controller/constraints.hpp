@@ -1,7 +1,7 @@
 #pragma once
 
-#include "solver/relaxed_barrier.hpp"
 #include "model/robot_parameters.hpp"
+#include "solver/relaxed_barrier.hpp"
 
 namespace ballbot {
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "controller/cost_terms.hpp"
-#include "solver/phase_clock.hpp"
 #include "core/state_blob.hpp"
 #include "core/time.hpp"
 #include "model/state.hpp"
+#include "solver/phase_clock.hpp"
 
 namespace ballbot {
 

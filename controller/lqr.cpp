@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "solver/riccati_equation.hpp"
 #include "core/config_visitor.hpp"
 #include "model/dynamics_constants.hpp"
+#include "solver/riccati_equation.hpp"
 
 namespace ballbot {
 namespace {

@@ -5,12 +5,12 @@
 #include "controller/command_governor.hpp"
 #include "controller/contact_supervisor.hpp"
 #include "controller/continuous_engine.hpp"
-#include "solver/frequency_shaping.hpp"
 #include "controller/held_lqr.hpp"
-#include "solver/horizon.hpp"
 #include "controller/lqr_law.hpp"
 #include "controller/mpc_engine.hpp"
 #include "controller/whole_body_problem.hpp"
+#include "solver/frequency_shaping.hpp"
+#include "solver/horizon.hpp"
 
 namespace ballbot {
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "controller/constraints.hpp"
-#include "solver/frequency_shaping.hpp"
 #include "controller/tasks.hpp"
 #include "controller/whole_body_cost.hpp"
 #include "model/reduced_dynamics.hpp"
+#include "solver/frequency_shaping.hpp"
 
 namespace ballbot {
 

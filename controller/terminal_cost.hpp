@@ -4,8 +4,8 @@
 
 #include "controller/lqr.hpp"
 #include "controller/mpc_dimensions.hpp"
-#include "solver/riccati.hpp"
 #include "controller/tasks.hpp"
+#include "solver/riccati.hpp"
 
 namespace ballbot {
 

@@ -2,10 +2,10 @@
 
 #include "controller/constraints.hpp"
 #include "controller/cost_terms.hpp"
-#include "solver/riccati.hpp"
 #include "controller/tasks.hpp"
 #include "controller/terminal_cost.hpp"
 #include "model/reduced_dynamics.hpp"
+#include "solver/riccati.hpp"
 
 namespace ballbot {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "controller/whole_body_cost.hpp"
 #include "solver/frequency_shaping.hpp"
 #include "solver/optimal_control_problem.hpp"
-#include "controller/whole_body_cost.hpp"
 
 namespace ballbot {
 

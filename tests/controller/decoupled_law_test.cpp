@@ -4,12 +4,12 @@
 
 #include <gmock/gmock.h>
 
-#include "controller/rigid_arm.hpp"
 #include "controller/law_factory.hpp"
+#include "controller/rigid_arm.hpp"
 #include "core/error.hpp"
-#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/controller/support/closed_loop.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 
 namespace ballbot {
 namespace {

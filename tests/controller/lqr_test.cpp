@@ -7,11 +7,11 @@
 #include <Eigen/LU>
 #include <gmock/gmock.h>
 
-#include "solver/riccati_equation.hpp"
 #include "core/config_visitor.hpp"
 #include "core/error.hpp"
-#include "tests/solver/support/eigenvalues.hpp"
+#include "solver/riccati_equation.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/eigenvalues.hpp"
 
 namespace ballbot {
 namespace {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "controller/mpc_planner.hpp"
-#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 
 namespace ballbot {
 namespace {

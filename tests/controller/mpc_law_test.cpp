@@ -9,9 +9,9 @@
 #include "controller/background_mpc_law.hpp"
 #include "controller/law_factory.hpp"
 #include "core/error.hpp"
-#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/controller/support/closed_loop.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 
 namespace ballbot {
 namespace {

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
-#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 
 namespace ballbot {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "controller/mpc_law.hpp"
 #include "model/frames.hpp"
-#include "tests/solver/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/eigenvalues.hpp"
 
 namespace ballbot {
 namespace {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "controller/lqr.hpp"
-#include "tests/solver/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/eigenvalues.hpp"
 
 namespace ballbot {
 namespace {

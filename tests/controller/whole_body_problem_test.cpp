@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "model/frames.hpp"
-#include "tests/solver/support/eigenvalues.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/solver/support/eigenvalues.hpp"
 
 namespace ballbot {
 namespace {

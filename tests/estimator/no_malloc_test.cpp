@@ -2,8 +2,8 @@
 
 #include "estimator/complementary_observer.hpp"
 #include "estimator/two_state_filter.hpp"
-#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/estimator/support/simulated_sensors.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 
 namespace ballbot::test {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "hil/recorder/recorded_bus.hpp"
-#include "tests/solver/support/allocation_counter.hpp"
 #include "tests/hil/support/bench_fixture.hpp"
+#include "tests/solver/support/allocation_counter.hpp"
 
 namespace ballbot {
 namespace {
