@@ -12,8 +12,8 @@ class PolicyGuess {
   explicit PolicyGuess(const MpcPolicy& policy) : policy_(policy) {}
 
   MpcState stateAt(double t) const noexcept { return policy_.stateAt(t); }
-  void controlAt(double t, Eigen::Matrix<double, NU, 1>& u,
-                 Eigen::Matrix<double, NU, kMpcStateDim>& K) const noexcept {
+  template <typename Gain>
+  void controlAt(double t, Eigen::Matrix<double, NU, 1>& u, Gain&& K) const noexcept {
     MpcInput all;
     MpcGain gain;
     policy_.controlAt(t, all, gain);

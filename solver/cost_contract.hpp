@@ -20,7 +20,9 @@ template <typename Cost, typename = void>
 struct IsCost : std::false_type {};
 
 template <typename Cost>
-struct IsCost<Cost, std::void_t<decltype(std::declval<Cost&>().value[std::size_t{0}]),
+struct IsCost<Cost, std::void_t<decltype(Cost::kCount), decltype(std::declval<Cost&>().violation),
+                                decltype(std::declval<Cost&>().value[std::size_t{0}]),
+                                decltype(std::declval<const Cost&>().total()),
                                 decltype(std::declval<Cost&>() += std::declval<const Cost&>())>>
     : std::bool_constant<
           std::is_default_constructible_v<Cost> && (Cost::kCount > 0) &&

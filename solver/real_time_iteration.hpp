@@ -16,7 +16,6 @@ class RealTimeIteration {
   using Problem = typename Solver::Problem;
   using X = typename Problem::X;
   using U = typename Problem::U;
-  using Gain = Eigen::Matrix<double, NU, NX>;
 
   /// @param knots  from the horizon's start, one more than the problem has stages, rising [s]
   RealTimeIteration(const std::vector<double>& knots, const SlqOptions& options)
@@ -32,19 +31,18 @@ class RealTimeIteration {
 
   /// Improves `guess`. Free of allocation.
   /// @param x0     state at the horizon's start
-  /// @param guess  read by X stateAt(double t) and void controlAt(double t, U&, Gain&), as a
-  ///               SampledPolicy has them, both const
+  /// @param guess  read by X stateAt(t) and controlAt(t, U& u, K), which writes into the view K of
+  /// an
+  ///               NU x NX matrix; as a SampledPolicy has them, both const
   /// @param age    what t is to the guess at the horizon's start [s]
   /// @param iterations  at most
   template <typename Guess>
   SlqReport<Cost> solve(const Problem& problem, const X& x0, const Guess& guess, double age,
                         int iterations) noexcept {
     auto& nominal = solver_.nominal();
-    Gain K;
     for (std::size_t k = 0; k < control_times_.size(); ++k) {
       nominal.x[k] = guess.stateAt(age + knots_[k]);
-      guess.controlAt(age + control_times_[k], nominal.u[k], K);
-      nominal.gain[k].K() = K;
+      guess.controlAt(age + control_times_[k], nominal.u[k], nominal.gain[k].K());
     }
     return iterations == 1 ? solver_.iterate(problem, x0)
                            : solver_.converge(problem, x0, iterations, kTolerance);

@@ -39,7 +39,9 @@ class SampledPolicy {
   }
 
   X stateAt(double t) const noexcept { return BetweenSamples<State>(states_, t).of(&State::x); }
-  void controlAt(double t, U& u, Gain& K) const noexcept {
+  /// @param K  a Gain, or a view of one
+  template <typename Matrix>
+  void controlAt(double t, U& u, Matrix&& K) const noexcept {
     const BetweenSamples<Control> between(controls_, t);
     u = between.of(&Control::u);
     K = between.of(&Control::K);

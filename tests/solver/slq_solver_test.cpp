@@ -1,3 +1,5 @@
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "solver/slq_solver_impl.hpp"
@@ -7,6 +9,22 @@
 
 namespace ballbot {
 namespace {
+
+struct NoViolation {
+  static constexpr int kCount = 1;
+  std::array<double, 1> value{};
+  double total() const { return value[0]; }
+  NoViolation& operator+=(const NoViolation&) { return *this; }
+};
+struct IntegerViolation : NoViolation {
+  int violation = 0;
+};
+struct Complete : NoViolation {
+  double violation = 0;
+};
+static_assert(IsCost<ScalarCost>::value && IsCost<Complete>::value);
+static_assert(!IsCost<double>::value && !IsCost<NoViolation>::value &&
+              !IsCost<IntegerViolation>::value);
 
 using LinearSolver = SlqSolver<4, 2, ScalarCost>;
 using CartPoleSolver = SlqSolver<4, 1, ScalarCost>;
