@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 
 #include "controller/whole_body_cost.hpp"

@@ -23,19 +23,17 @@ class Idle final : public SteppedController {
 
   std::string name() const override { return "idle"; }
   void onSensors(SimTime, const SensorFrame&, DueTasks due, ControlOutput& out) noexcept override {
-    if (due.has(task_)) ++asked_;
+    if (due.has(task_)) ++asked_[0];
     out.command.torque.setZero();
   }
   StateBlob saveState() const override { return saveStateOf(asked_, "idle", 1); }
   void restoreState(const StateBlob& blob) override { restoreStateOf(asked_, blob, "idle", 1); }
-  std::map<std::string, double> metrics() const override {
-    return {{"times_asked", static_cast<double>(asked_)}};
-  }
+  std::map<std::string, double> metrics() const override { return {{"times_asked", asked_[0]}}; }
   std::vector<std::string> metricNames() const override { return {"times_asked"}; }
 
  private:
   TaskId task_;
-  std::int64_t asked_ = 0;
+  std::vector<double> asked_ = {0};
 };
 
 class InjectedController : public ::testing::Test {
