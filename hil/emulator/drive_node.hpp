@@ -58,6 +58,8 @@ struct DriveOutput {
   double stiffness = 0, damping = 0;  ///< [N m/rad], [N m s/rad]
 };
 
+constexpr std::int64_t kNoStand = 0;  ///< of object 2020:01
+
 /// An emulated servo drive (CiA 402): power state machine, cyclic synchronous torque and position
 /// modes, quick stop, fault reaction, and what happens when its master falls silent.
 class DriveNode final : public CanopenNode {

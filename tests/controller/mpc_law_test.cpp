@@ -354,57 +354,5 @@ TEST_F(MpcLawTest, ALawThatSolvesInAThreadCannotBeSaved) {
   }
 }
 
-TEST_F(MpcLawTest, AContactTaskNeedsContactForces) {
-  applyOverride(tree_, "mpc.tasks.contact_force={weight: 1}");
-  try {
-    config();
-    FAIL() << "no error";
-  } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("contact_force needs controller.mpc.contact_forces: true"));
-  }
-}
-
-TEST_F(MpcLawTest, ATorqueMustCostSomething) {
-  applyOverride(tree_, "mpc.tasks={ball_position: {weight: 1}, wheel_torque: {weight: 1}}");
-  try {
-    config();
-    FAIL() << "no error";
-  } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("arm_torque is missing: a torque must cost something"));
-  }
-}
-
-TEST_F(MpcLawTest, APlanCannotActBeyondItsEnd) {
-  applyOverride(tree_, "mpc.fallback_after_ms=1200");
-  try {
-    config();
-    FAIL() << "no error";
-  } catch (const InputError& e) {
-    EXPECT_THAT(e.what(),
-                HasSubstr("fallback_after_ms is 1200, which is beyond the end of a plan"));
-  }
-}
-
-TEST_F(MpcLawTest, AHorizonMustBeWholeSteps) {
-  applyOverride(tree_, "mpc.horizon.step_ms=30");
-  try {
-    config();
-    FAIL() << "no error";
-  } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("length_s leaves 33.3333 steps of 30 ms"));
-  }
-}
-
-TEST_F(MpcLawTest, GuessesWhichTaskWasMeant) {
-  applyOverride(tree_, "mpc.tasks.ball_positon={weight: 1}");
-  try {
-    config();
-    FAIL() << "no error";
-  } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("unknown key 'ball_positon'"));
-    EXPECT_THAT(e.what(), HasSubstr("did you mean 'ball_position'?"));
-  }
-}
-
 }  // namespace
 }  // namespace ballbot

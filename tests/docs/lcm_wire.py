@@ -148,7 +148,7 @@ class Wire:
         return len(self.encode(name, message))
 
     def messageDigest(self):
-        names = ("step_request", "step_reply", "state_estimate", "plan_report", "tick_digests")
+        names = ("step_request", "step_reply", "state_estimate", "plan_report", "tick_digests", "added_values")
         return xxh3(b"".join(struct.pack("<Q", self.fingerprint(name)) for name in names))
 
 

@@ -25,6 +25,7 @@ WHO = {
     "state_estimate": ("log only", "400 Hz"),
     "plan_report": ("log only", "every plan"),
     "tick_digests": ("log only", "every 10 ms of simulated time"),
+    "added_values": ("log only", "with the frame they were added to"),
 }
 
 
@@ -41,6 +42,8 @@ def messages():
     def size(name):
         if name == "step_reply":
             return f"{wire.size(name, truth_count=1)} with truth, {wire.size(name)} without"
+        if name == "added_values":
+            return f"{wire.size(name)} + 8 per value; before these one message with each name, unit and words"
         if name == "tick_digests":
             return f"{wire.size(name)} + 4 per event + 4 per event and channel"
         return str(wire.size(name))
