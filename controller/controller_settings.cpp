@@ -1,6 +1,7 @@
 #include "controller/controller_settings.hpp"
 
 #include <set>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -69,7 +70,9 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
 }
 
 std::unique_ptr<ControlLaw> ControllerSettings::makeLaw() const {
-  return sayingWhere(kind_, [&] { return law->makeLaw(); });
+  auto made = sayingWhere(kind_, [&] { return law->makeLaw(); });
+  if (!made) throw std::logic_error(kind_ + ": its LawSettings::makeLaw() made nothing");
+  return made;
 }
 
 void describeController(ConfigVisitor& v, const RobotParameters& robot) {

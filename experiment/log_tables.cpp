@@ -50,7 +50,7 @@ void addTable(const char* name, const std::vector<Recorded>& recorded, std::vect
 /// What was added to the frames of a table, beside their own columns; not a number where a row has
 /// none of it.
 void addColumns(const AddedRecord& record, LogTable& table) {
-  const std::vector<double>& times = table.columns.front().values;
+  const std::vector<double> times = table.columns.front().values;  // the list below grows
   for (std::size_t i = 0; i < record.list.size(); ++i) {
     LogTable::Column column{record.list[i].name, record.list[i].unit, {}};
     column.values.reserve(times.size());

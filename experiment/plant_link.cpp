@@ -1,6 +1,7 @@
 #include "experiment/plant_link.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -11,6 +12,13 @@
 #include "experiment/plant_factory.hpp"
 
 namespace ballbot {
+namespace {
+
+/// In the environment of a child: without it a program whose main() knows no 'plant' would start
+/// itself again and again.
+constexpr const char* kStartedAsPlant = "BALLBOT_STARTED_AS_PLANT";
+
+}  // namespace
 
 std::uint64_t configDigest64(const Scenario& scenario) {
   const std::string digest = scenario.configDigest();
@@ -36,6 +44,12 @@ PlantLink::~PlantLink() {
 }
 
 void PlantLink::start() {
+  if (!options_.in_process && std::getenv(kStartedAsPlant) != nullptr) {
+    throw InputError(
+        "this program was started as the plant of a run, with the word 'plant', and began a run "
+        "itself: let its main() answer that word with servePlant(), or run with "
+        "RunOptions::in_process");
+  }
   if (options_.in_process) {
     local_ = std::make_unique<Lifecycle>(makePlant(config_.plant));
     return;
@@ -44,11 +58,13 @@ void PlantLink::start() {
   if (address.url.empty()) {
     address = options_.shared ? LcmAddress{sharedLcmAddress().url, options_.address.channel}
                               : privateLcmAddress();
+    ::setenv(kStartedAsPlant, "1", 1);
     child_ = std::make_unique<ChildProcess>(
         "plant",
         std::vector<std::string>{"plant", folder_.scenarioFile(), "--lcm-url", address.url,
                                  "--channel", address.channel, "--quiet"},
         stderr_path_, options_.core);
+    ::unsetenv(kStartedAsPlant);
   }
   transport_ = std::make_unique<LcmTransport>(address, LinkEnd::kMaster);
   RemoteOptions remote;

@@ -6,6 +6,7 @@
 
 #include "core/config_reader.hpp"
 #include "core/error.hpp"
+#include "experiment/added_names.hpp"
 #include "model/robot_reader.hpp"
 #include "plant/simbody_library.hpp"
 
@@ -95,6 +96,14 @@ RunConfig readRunConfig(Scenario scenario) {
   c.recording = readRecording(s);
   c.controller.law->requireRates(s.rates.planner, s.rates.plan_latency);
   c.plant = readPlantOf(s, c.robot);
+  requireNewNames(c.plant.plant.added_sensors.signals().list, "sensors");
+  requireNewNames(c.controller.law->addedToPlan(), "plan");
+  if (const std::size_t added = c.controller.law->addedToPlan().size(); added > kMaxAddedTasks) {
+    throw InputError(
+        fmt::format("the control law adds {} values to the record of a plan, at most {} "
+                    "fit (PlanReport::terms.added)",
+                    added, kMaxAddedTasks));
+  }
   requireEveryImuSample(s, c.plant.plant.sensors.imu.period);
   if (!c.estimator->usesExternalPose()) c.home.yaw = c.plant.plant.initial.pose.yaw;
   return c;

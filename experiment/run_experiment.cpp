@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <stdexcept>
 
 #include "cosim/recorder.hpp"
 #include "cosim/step_master.hpp"
@@ -61,8 +62,10 @@ bool askForFall(const std::vector<MetricLimit>& requirements) {
 
 std::unique_ptr<SteppedController> makeController(const RunConfig& config, EventCalendar& calendar,
                                                   const ControllerMaker& make) {
-  if (make) return make(config, calendar);
-  return std::make_unique<RobotController>(config, calendar);
+  if (!make) return std::make_unique<RobotController>(config, calendar);
+  auto made = make(config, calendar);
+  if (!made) throw std::logic_error("RunOptions::make_controller made nothing");
+  return made;
 }
 
 /// Every metric that a run can have. @throw InputError if one is asked for that it cannot have.

@@ -205,6 +205,8 @@ std::optional<PlotGroup> planGroup(const std::vector<LogTable>& tables) {
       "Plans", "What the planned motion costs, and its largest parts.", {cost.axes()}, {}};
 }
 
+constexpr int kChannels = 6;  // colours of a pair of axes
+
 /// Sensors beside those of every robot, one pair of axes for each unit.
 std::optional<PlotGroup> addedSensorGroup(const RunLog& log, const std::vector<LogTable>& tables) {
   if (log.added_sensors.list.empty()) return std::nullopt;
@@ -213,7 +215,8 @@ std::optional<PlotGroup> addedSensorGroup(const RunLog& log, const std::vector<L
   std::map<std::string, int> channels;
   for (const AddedSignal& signal : log.added_sensors.list) {
     auto& axes = by_unit.try_emplace(signal.unit, tables, "value", signal.unit).first->second;
-    axes.line("sensors", signal.name, signal.name, SeriesStyle::kMeasured, channels[signal.unit]++);
+    axes.line("sensors", signal.name, signal.name, SeriesStyle::kMeasured,
+              channels[signal.unit]++ % kChannels);
   }
   for (const auto& axes : by_unit) group.axes.push_back(axes.second.axes());
   return group;

@@ -32,7 +32,9 @@ RobotParameters plainRobot() {
     return BodyInertia{mass, height * Vector3::UnitZ(), 0.1 * mass * Matrix3::Identity()};
   };
   robot.base = body(15, 0.3);
-  for (ArmLink& link : robot.arm) {
+  for (int i = 0; i < kArmJointCount; ++i) {
+    ArmLink& link = robot.arm[i];
+    link.name = fmt::format("arm_{}", i + 1);
     link.p_PJ_P = 0.2 * Vector3::UnitZ();
     link.axis = Vector3::UnitY();
     link.inertia = body(1, 0.1);
@@ -116,7 +118,12 @@ const std::vector<KeyEntry>& scenarioKeys() {
 }
 
 std::vector<KeyEntry> keysAt(const std::string& path) {
-  const std::string wanted = asListed(path);
+  std::string wanted = asListed(path);
+  const std::string item = ".0";  // an item of a list is what the list is of
+  if (wanted.size() > item.size() &&
+      wanted.compare(wanted.size() - item.size(), item.size(), item) == 0) {
+    wanted.resize(wanted.size() - item.size());
+  }
   std::vector<KeyEntry> out;
   for (const KeyEntry& entry : scenarioKeys()) {
     const bool below = entry.path.compare(0, wanted.size() + 1, wanted + ".") == 0;

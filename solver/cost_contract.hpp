@@ -8,12 +8,13 @@ namespace ballbot {
 
 /// What the solvers ask of a problem's cost, their template argument Cost:
 ///
-///   Cost()             zero, without allocation
-///   Cost::kCount       how many terms it has, at least 1
-///   cost.value         array of kCount doubles, the terms; continuous time integrates each of them
-///   cost.violation     double: how far the worst inequality is violated, 0 if all hold; only
-///   reported cost.total()       what is minimised: the sum of the terms cost += other      adds
-///   the terms and takes the larger violation
+/// - `Cost()` is zero, without allocation;
+/// - `Cost::kCount` says how many terms it has, at least 1;
+/// - `cost.value` is an array of kCount doubles, the terms; continuous time integrates each;
+/// - `cost.violation`, a double, says how far the worst inequality is violated, 0 if all hold; it
+///   is only reported;
+/// - `cost.total()` is what is minimised: the sum of the terms;
+/// - `cost += other` adds the terms and takes the larger violation.
 ///
 /// Splitting a cost by term only informs: a problem that does not care takes ScalarCost.
 template <typename Cost, typename = void>
