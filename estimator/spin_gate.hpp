@@ -11,7 +11,7 @@ struct SpinSettings {
   bool enabled = false;
   /// Of a ball that the floor holds: what friction lets creep, and for how long [rad/s], [s].
   double creep = 0.01;
-  double creep_time_s = 0.1;
+  double creep_time_s = 0.3;
   /// Of a ball that spins, what wheels and floor do to it, new in every interval [rad/s^2].
   double acceleration = 40;
   /// Common part of the wheels' residuals, averaged over 20 intervals, beyond which the ball spins

@@ -42,7 +42,7 @@ TEST(EstimatorMemory, UpdateAndEstimateAllocateNothing) {
   EXPECT_EQ(allocationsOf(filter), 0);
   EXPECT_GT(filter.rejections()[Rejection::kStateDoubted], 0);
   EXPECT_GT(filter.rejections()[Rejection::kImuMissing], 0);
-  settings.spin.enabled = true;
+  settings.initial_tilt_error << 0.17, 0;  // two wheels that slip alike are a spin and one wheel
   SpinTwoStateFilter spin_filter(estimatorTestRobot(), settings);
   EXPECT_EQ(allocationsOf(spin_filter), 0);
   EXPECT_GT(spin_filter.rejections()[Rejection::kStateDoubted], 0);
