@@ -108,8 +108,7 @@ bool BasicInformationFilter<kDim>::refuseOutliers(IntervalMeasurement& m, const 
     const Vector3 off = update_.standardizedWheels();
     const int wheel = gate_.worstOutlier(off, use);
     if constexpr (kSpins) {
-      const double alone = wheel < 0 ? gate_settings_.wheel_gate_sigma : std::abs(off[wheel]);
-      if (!jumped && std::abs(commonPart()) > alone) {
+      if (!jumped && spin_gate_.jumps(commonPart(), off, use)) {
         jumped = true;
         SpinGate::expectAnything(m);
         model_.evaluate(x_, next, m, residuals_);
@@ -121,7 +120,7 @@ bool BasicInformationFilter<kDim>::refuseOutliers(IntervalMeasurement& m, const 
     use[static_cast<std::size_t>(wheel)] = false;
     if (!update_.solve(information_, residuals_, use)) return false;
   }
-  if constexpr (kSpins) spin_gate_.settle(jumped, commonPart(), gate_.largestMean());
+  if constexpr (kSpins) spin_gate_.settle(use, jumped, commonPart(), gate_.largestMean(use));
   return true;
 }
 

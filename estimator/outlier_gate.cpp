@@ -63,9 +63,11 @@ int WheelGate::worstOutlier(const Vector3& off,
   return worst;
 }
 
-double WheelGate::largestMean() const noexcept {
+double WheelGate::largestMean(const std::array<bool, kWheelCount>& use) const noexcept {
   double largest = 0;
-  for (const Wheel& wheel : wheels_) largest = std::max(largest, std::abs(wheel.mean));
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    if (use[i]) largest = std::max(largest, std::abs(wheels_[i].mean));
+  }
   return largest;
 }
 

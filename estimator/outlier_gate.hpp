@@ -61,9 +61,9 @@ class WheelGate {
   /// Learns from the solution with which the outliers were settled, and counts.
   void settle(const Vector3& off, const IntervalMeasurement& m,
               const std::array<bool, kWheelCount>& used, RejectionCounts& counts) noexcept;
-  /// How far off the residuals of the worst wheel are, averaged over 20 intervals [standard
-  /// deviations].
-  double largestMean() const noexcept;
+  /// Of the wheels in use, how far off the residuals of the worst are, averaged over 20 intervals
+  /// [standard deviations].
+  double largestMean(const std::array<bool, kWheelCount>& use) const noexcept;
 
   /// More than one wheel has been refused for longer than the settings allow. One faulty wheel is a
   /// faulty wheel; several at once are a state that fits nothing.

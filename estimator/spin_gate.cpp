@@ -9,8 +9,9 @@ namespace ballbot {
 namespace {
 
 constexpr double kMeanGain = 1.0 / 20;
-constexpr double kAnySpin = 20;    // [rad/s]
-constexpr double kLargestOff = 5;  // an increment tells no more than that [standard deviations]
+constexpr double kAnySpin = 20;     // [rad/s]
+constexpr double kLargestOff = 5;   // an increment tells no more than that [standard deviations]
+constexpr double kBeyondCreep = 3;  // [standard deviations]
 /// The mean of a spin that turns round passes zero; the spin itself is far from it then.
 constexpr double kMomentary = 5;
 
@@ -24,6 +25,9 @@ void SpinSettings::describe(ConfigVisitor& v) {
   v.number(may("creep_time_s", "how long it creeps alike"), creep_time_s, {1e-3, 100});
   v.number(may("acceleration_rad_per_s2", "of a ball that spins, by wheels and floor"),
            acceleration, {0.1, 1e4});
+  v.number(may("jump_sigma",
+               "common part of the wheels' residuals, of one increment, at which the ball spins"),
+           jump_sigma, {2, 1e6});
   v.number(may("onset_sigma",
                "common part of the wheels' residuals, mean over 20 increments, at which it spins"),
            onset_sigma, {0.2, 1e6});
@@ -42,32 +46,47 @@ void SpinGate::expect(double spin, IntervalMeasurement& m) const noexcept {
   m.smooth_spin = m.spin_kept * spin;
 }
 
+bool SpinGate::jumps(double common, const Vector3& off,
+                     const std::array<bool, kWheelCount>& use) const noexcept {
+  double alone = settings_.jump_sigma;
+  for (int i = 0; i < kWheelCount; ++i) {
+    if (use[static_cast<std::size_t>(i)]) alone = std::max(alone, std::abs(off[i]));
+  }
+  return std::abs(common) > alone;
+}
+
 void SpinGate::expectAnything(IntervalMeasurement& m) noexcept { m.spin_sigma = kAnySpin; }
 
-void SpinGate::settle(bool jumped, double common, double largest_wheel_mean) noexcept {
-  begins_ = false;
-  if (spinning_) return;
-  common_mean_ += kMeanGain * (std::clamp(common, -kLargestOff, kLargestOff) - common_mean_);
+void SpinGate::settle(const std::array<bool, kWheelCount>& used, bool jumped, double common,
+                      double largest_wheel_mean) noexcept {
+  jumped_ = jumped;
+  // A wheel that turned out to slip has had its part in the mean.
+  if (used != used_) common_mean_ = 0;
+  used_ = used;
+  if (!spinning_) {
+    common_mean_ += kMeanGain * (std::clamp(common, -kLargestOff, kLargestOff) - common_mean_);
+  }
   // A wheel that slips has a common part too, but is itself further off.
-  begins_ = jumped || (std::abs(common_mean_) > settings_.onset_sigma &&
-                       std::abs(common_mean_) > largest_wheel_mean);
+  common_leads_ = std::abs(common_mean_) > largest_wheel_mean;
 }
 
 void SpinGate::follow(double spin) noexcept {
-  if (begins_) {
-    spinning_ = true;
-    spin_mean_ = spin;
-    common_mean_ = 0;
-  } else if (spinning_) {
+  const bool begins =
+      jumped_ || (common_leads_ && (std::abs(common_mean_) > settings_.onset_sigma ||
+                                    std::abs(spin) > kBeyondCreep * settings_.creep));
+  if (spinning_) {
     spin_mean_ += kMeanGain * (spin - spin_mean_);
     spinning_ = std::abs(spin_mean_) > settings_.sticks_below ||
                 std::abs(spin) > kMomentary * settings_.sticks_below;
+  } else if (begins) {
+    spinning_ = true;
+    spin_mean_ = spin;
+    common_mean_ = 0;
   }
-  begins_ = false;
 }
 
 void SpinGate::forget() noexcept {
-  spinning_ = begins_ = false;
+  spinning_ = jumped_ = common_leads_ = false;
   common_mean_ = spin_mean_ = 0;
 }
 

@@ -14,8 +14,9 @@ struct SpinSettings {
   double creep_time_s = 0.3;
   /// Of a ball that spins, what wheels and floor do to it, new in every interval [rad/s^2].
   double acceleration = 40;
-  /// Common part of the wheels' residuals, averaged over 20 intervals, beyond which the ball spins
-  /// [standard deviations of one interval].
+  /// Common part of the wheels' residuals beyond which the ball spins: of one interval, and
+  /// averaged over 20 [standard deviations of one interval].
+  double jump_sigma = 4;
   double onset_sigma = 0.6;
   /// Spin, averaged over 20 intervals, below which the floor holds the ball again [rad/s].
   double sticks_below = 0.02;
@@ -36,14 +37,20 @@ class SpinGate {
 
   /// Writes into `m` how the spin goes on over its interval. @param spin at its begin [rad/s]
   void expect(double spin, IntervalMeasurement& m) const noexcept;
+  /// What all wheels have in common is more than was expected, and more than any wheel alone.
+  /// @param common  common part of the wheels' residuals, @param off  the residuals themselves
+  /// [standard deviations], @param use  which of them count
+  bool jumps(double common, const Vector3& off,
+             const std::array<bool, kWheelCount>& use) const noexcept;
   /// Beyond all expectation: the interval says of itself what the spin is.
   static void expectAnything(IntervalMeasurement& m) noexcept;
 
-  /// Learns from the wheels of an interval.
+  /// Learns from the wheels of an interval. @param used  which of them count
   /// @param jumped  the interval was solved expecting anything
   /// @param common  otherwise: common part of the wheels' residuals [standard deviations]
   /// @param largest_wheel_mean  that of a single wheel which is the furthest off, as averaged
-  void settle(bool jumped, double common, double largest_wheel_mean) noexcept;
+  void settle(const std::array<bool, kWheelCount>& used, bool jumped, double common,
+              double largest_wheel_mean) noexcept;
   /// Learns from the spin that was found in it [rad/s].
   void follow(double spin) noexcept;
 
@@ -53,7 +60,9 @@ class SpinGate {
   template <typename Self, typename Visitor>
   static void visitState(Self& self, Visitor& visit) {
     visit(self.spinning_);
-    visit(self.begins_);
+    visit(self.jumped_);
+    visit(self.common_leads_);
+    visit(self.used_);
     visit(self.common_mean_);
     visit(self.spin_mean_);
   }
@@ -61,8 +70,10 @@ class SpinGate {
  private:
   SpinSettings settings_;
   bool spinning_ = false;
-  bool begins_ = false;     ///< with the interval that is being settled
-  double common_mean_ = 0;  ///< while it sticks [standard deviations]
+  bool jumped_ = false;        ///< in the last interval
+  bool common_leads_ = false;  ///< what wheels have in common is more than any is off alone
+  std::array<bool, kWheelCount> used_{};
+  double common_mean_ = 0;  ///< of `used_`, while it sticks [standard deviations]
   double spin_mean_ = 0;    ///< while it spins [rad/s]
 };
 

@@ -47,14 +47,15 @@ struct Phases {
 };
 
 template <typename Spins>
-Phases monteCarlo(int runs, const Spins& spinsOf) {
+Phases monteCarlo(int runs, const Spins& spinsOf,
+                  const TwoStateSettings& settings = matchedSettings()) {
   Phases phases;
   for (int seed = 1; seed <= runs; ++seed) {
     SpinFilterRun run;
     run.seed = static_cast<std::uint64_t>(seed);
     run.seconds = 15.5;
     run.noise = whiteNoise();
-    run.settings = matchedSettings();
+    run.settings = settings;
     run.script.spins = spinsOf(run.seed);
     run.observe = [&](const SpinTwoStateFilter& filter, const Truth& truth) {
       if (truth.t_s < 1.5) return;
@@ -102,19 +103,63 @@ std::vector<SpinPulse> spells(std::uint64_t seed) {
   return pulses;
 }
 
+/// Three standard deviations of the mean over 30 runs; yaw and bias are two numbers of a run.
+void expectTrue(const Ratios& r) {
+  EXPECT_GT(r.nees, 14.0 / kSpinTangentDim);
+  EXPECT_LT(r.nees, 19.0 / kSpinTangentDim);
+  EXPECT_GT(r.bias_yaw, 0.5);
+  EXPECT_LT(r.bias_yaw, 1.5);
+}
+
 TEST(SpinConsistency, HoldsWhileTheFloorHoldsTheBall) {
   const Phases p = monteCarlo(30, none);
-  EXPECT_EQ(p.rejected, 0);
+  expectTrue(p.sticking);
+  EXPECT_NEAR(4 * p.sticking.nis, 4, 0.1);
+  // Of half a million increments one is beyond five standard deviations by chance.
+  EXPECT_LE(p.rejected, 4);
 }
 
 TEST(SpinConsistency, HoldsWhileTheBallCreeps) {
   const Phases p = monteCarlo(30, creeping);
-  EXPECT_EQ(p.rejected, 0);
+  expectTrue(p.sticking);
+  EXPECT_NEAR(4 * p.sticking.nis, 4, 0.1);
+  EXPECT_LE(p.rejected, 4);
 }
 
 TEST(SpinConsistency, HoldsThroughSpellsOfSpinning) {
   const Phases p = monteCarlo(30, spells);
-  EXPECT_EQ(p.rejected, 0);
+  expectTrue(p.sticking);
+  expectTrue(p.spinning);
+  // Cautious: a spin is expected to change by 0.1 rad/s in every interval, and mostly does not.
+  EXPECT_GT(4 * p.spinning.nis, 3);
+  EXPECT_LT(4 * p.spinning.nis, 4.1);
+  EXPECT_LE(p.rejected, 4);
+}
+
+TEST(SpinConsistency, FailsForAFilterThatTakesASpinForSteady) {
+  TwoStateSettings settings = matchedSettings();
+  settings.spin.acceleration = 1;
+  EXPECT_GT(monteCarlo(5, spells, settings).spinning.nees, 1.5);
+}
+
+TEST(SpinConsistency, AtRestForTenMinutesYawIsAsUncertainAsItSays) {
+  // A ball that may creep shows the gyroscope's bias less well than one that cannot.
+  SpinFilterRun run;
+  run.script = standingStill();
+  run.noise = whiteNoise();
+  run.seconds = 600;
+  double error2 = 0, sigma = 0;
+  for (run.seed = 1; run.seed <= 3; ++run.seed) {
+    run.observe = [&](const SpinTwoStateFilter& f, const Truth&) {
+      if (toNs(f.stateTime()) % 1'000'000'000 == 0) sigma = f.estimate(f.stateTime()).sigma[4];
+    };
+    const RunErrors e = play(run);
+    error2 += std::pow(e.yaw_end_deg * kRadPerDeg / sigma, 2);
+  }
+  std::printf("yaw after ten minutes: sigma %.2f degrees\n", sigma / kRadPerDeg);
+  EXPECT_LT(error2, 11.3);  // chi-square (3), one percent
+  EXPECT_GT(sigma, 2.8 * kRadPerDeg);
+  EXPECT_LT(sigma, 9.7 * kRadPerDeg);  // that of the bias' wandering alone, never seen
 }
 
 }  // namespace

@@ -160,6 +160,23 @@ TEST(Spin, AWheelThatSlipsOnABallThatSpinsIsFoundToo) {
   EXPECT_LT(e.velocity_max, 0.03);
 }
 
+TEST(Spin, AWheelThatLetsGoMayMakeTheBallSpin) {
+  // The torques of the other two are no longer in balance: both begin at once.
+  SpinFilterRun run = runWithSpin(1.7, 0.2, 0.06);
+  double slipped = 0;
+  run.disturb = [&](SensorFrame& f, const Truth& t) {
+    const double since = t.t_s - kFrom_s;
+    if (since > 0 && since <= 0.2) slipped += 2.5e-3 * std::min(200 * since, 12.0);
+    f.joint_angle[0] += slipped;
+  };
+  RejectionCounts counts;
+  const RunErrors e = play(run, &counts);
+  EXPECT_GT(counts[Rejection::kWheel1Slip] + counts[Rejection::kWheel1Outlier], 60);
+  EXPECT_EQ(counts[Rejection::kStateDoubted], 0);
+  EXPECT_LT(e.tilt_max_deg, 0.3);
+  EXPECT_LT(e.velocity_max, 0.03);
+}
+
 TEST(Spin, AWrongInitialTiltIsStillDoubted) {
   for (const double error_deg : {10.0, -10.0}) {
     SpinFilterRun run;
