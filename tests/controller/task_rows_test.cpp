@@ -161,15 +161,17 @@ void expectRow(const std::string& name, Tasks tasks, const std::function<void(Ta
   const Residual residual = rows.residualOf(name, tasks);
   Expected expected;
   expected.add(residual, weights(tasks, static_cast<int>(residual(at).size())), at);
-  const bool contact = name == "contact_force";
-  const Point gradient = contact ? with.gradient : Point(with.gradient - without.gradient);
+  const bool force = name == "contact_force", moment = name == "contact_moment";
+  // Unless they are asked for, force and moment are kept at zero: that is no part of any row.
+  Point gradient = with.gradient - without.gradient;
   auto hessian = with.hessian;
-  if (!contact) hessian -= without.hessian;
-  if (contact) {  // the moment's own keeping at zero is not this row's
-    expected.gradient.tail<3>() = gradient.tail<3>();
-    expected.hessian.bottomRightCorner<3, 3>() = hessian.bottomRightCorner<3, 3>();
+  hessian -= without.hessian;
+  const int first = kStateDim + kJointCount + (moment ? 3 : 0);
+  if (force || moment) {
+    gradient.segment<3>(first) = with.gradient.segment<3>(first);
+    hessian.block<3, 3>(first, first) = with.hessian.block<3, 3>(first, first);
   }
-  const double value = with.terms.value[term] - (contact ? 0 : without.terms.value[term]);
+  const double value = with.terms.value[term] - (force || moment ? 0 : without.terms.value[term]);
   if (name == "wheel_torque") {
     EXPECT_EQ(value, 0);
     return;

@@ -24,7 +24,7 @@ std::string said(const std::vector<std::string>& changes) {
 
 // One robot, three beliefs: what it is, what it carries, what the controller counts on.
 TEST(RunConfig, TellsTheRobotsApart) {
-  const RunConfig c = config({"environment.payload={mass_kg: 1}", "controller.known_payload_kg=0.4",
+  const RunConfig c = config({"environment.payload_kg=1", "controller.known_payload_kg=0.4",
                               "plant.base_com_offset_m=[0.003, 0, 0]"});
   EXPECT_EQ(c.robot.payload_mass, 0);
   EXPECT_EQ(c.believedRobot().payload_mass, 0.4);
@@ -33,21 +33,22 @@ TEST(RunConfig, TellsTheRobotsApart) {
 }
 
 TEST(RunConfig, RecordsAsOftenAsTheEstimatorRunsIfNothingIsSaid) {
-  EXPECT_EQ(config({"recording=null", "rates.estimator_period_us=5000"}).recording.log.sensors,
-            std::chrono::milliseconds(5));
+  EXPECT_EQ(config({"recording=null", "rates.estimator_period_us=1250",
+                    "robot.sensors.imu.period_ms=2.5"})
+                .recording.log.sensors,
+            std::chrono::microseconds(1250));
   EXPECT_EQ(config({"recording.sensors_period_ms=10"}).recording.log.sensors,
             std::chrono::milliseconds(10));
 }
 
 TEST(RunConfig, EveryPartSaysWhereItsFaultStands) {
-  EXPECT_THAT(said({"robot.gravity_m_per_s2=-1"}), HasSubstr("robot.gravity_m_per_s2 is -1"));
-  EXPECT_THAT(said({"plant.fidelity.contact=soft"}), HasSubstr("plant.fidelity.contact is 'soft'"));
-  EXPECT_THAT(said({"estimator.iterations=0"}), HasSubstr("estimator.iterations is 0"));
-  EXPECT_THAT(said({"controller.mpc.horizon.length_s=0"}),
-              HasSubstr("controller.mpc.horizon.length_s is 0"));
+  EXPECT_THAT(said({"robot.gravity_m_per_s2=-1"}), HasSubstr("gravity_m_per_s2 is -1"));
+  EXPECT_THAT(said({"plant.fidelity.contact=soft"}), HasSubstr("contact is 'soft'"));
+  EXPECT_THAT(said({"estimator.iterations=0"}), HasSubstr("iterations is 0"));
+  EXPECT_THAT(said({"controller.mpc.horizon.length_s=0"}), HasSubstr("length_s is 0"));
   EXPECT_THAT(said({"controller.tracker.stiff=1"}), HasSubstr("unknown key 'stiff'"));
   EXPECT_THAT(said({"recording.truth_period_ms=soon"}), HasSubstr("recording.truth_period_ms"));
-  EXPECT_THAT(said({"environment.pushes=[{body: head}]"}), HasSubstr("environment.pushes.0.body"));
+  EXPECT_THAT(said({"environment.pushes=[{body: head}]"}), HasSubstr("body is 'head'"));
 }
 
 // What no part can see alone.
