@@ -63,6 +63,14 @@ void Constraints::describe(ConfigVisitor& v) {
               in.number(may("share_of_limit", "share of the drive's speed that a plan may use"),
                         wheel_rate_share, {0.1, 1});
             });
+  v.section(may("spin_torque_limit",
+                "barrier at the torque about the vertical beyond which the ball would spin on its "
+                "floor; in effect where controller.floor_spin_torque_Nm is given"),
+            [&](ConfigVisitor& in) {
+              describeBarrier(in, spin_torque);
+              in.number(may("share_of_limit", "share of what the floor holds that a plan may use"),
+                        spin_torque_share, {0.1, 1});
+            });
   v.section(may("tilt_limit", "barrier at the largest tilt of the base"), [&](ConfigVisitor& in) {
     describeBarrier(in, tilt);
     in.number(may("limit_deg", "largest angle of the base from the vertical"), tilt_limit, {1, 80},

@@ -32,12 +32,22 @@ struct Constraints {
   double wheel_rate_share = 0.7;  ///< of the drives' speed, which the limit is
   RelaxedBarrier wheel_rate{0.2, 0.2};
 
+  /// Of the wheels on the ball about the vertical: what the floor under the ball is counted on to
+  /// hold [N m]. Without end where nobody said what that is.
+  double spin_torque_limit = kUnlimited;
+  double spin_torque_share = 0.7;  ///< of what the floor holds, which the limit is
+  RelaxedBarrier spin_torque{0.02, 0.05};
+
   double tilt_limit = 0.45;  ///< of the base from vertical [rad]
   RelaxedBarrier tilt{0.05, 0.02};
 
   explicit Constraints(const RobotParameters& robot);
 
   void describe(ConfigVisitor& v);
+  /// @param held  torque that the floor holds; kUnlimited: it is not known [N m]
+  void takeFloor(double held) {
+    if (held < kUnlimited) spin_torque_limit = spin_torque_share * held;
+  }
   /// Sets the limits that are shares of the robot's; to be called again after a share was read.
   void takeShares(const RobotParameters& robot);
 };

@@ -5,11 +5,15 @@
 
 #include <fmt/format.h>
 
+#include "controller/floor_limit.hpp"
 #include "controller/law_registry.hpp"
 #include "core/error.hpp"
 
 namespace ballbot {
 namespace {
+
+/// That the tracker may use: more than a plan, to whose feedback it leaves the rest.
+constexpr double kShareOfFloor = 0.8;
 
 const LawKind& describeKind(ConfigVisitor& v) {
   return lawKinds().choose(
@@ -63,6 +67,9 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
   out.law = sayingWhere(out.kind_, [&] { return kind.read(in, out.believed_robot); });
   ConfigReader tracker = in.child("tracker");
   out.tracker = TrackerConfig::read(tracker, robot);
+  double floor = kUnlimited;
+  describeFloor(reading, floor);
+  if (floor < kUnlimited) out.tracker.spin_torque_limit = kShareOfFloor * floor;
   tracker.finish();
   forEachSection([&](const LawSection& section) { in.raw(section.key.name); });
   in.finish();
@@ -80,6 +87,8 @@ void describeController(ConfigVisitor& v, const RobotParameters& robot) {
   TrackerConfig tracker = TrackerConfig::defaults(robot);
   describeKind(v);
   describeKnownPayload(v, known_payload);
+  double floor = kUnlimited;
+  describeFloor(v, floor);
   v.section(must("tracker", "follows the law's plan, at the highest rate"),
             [&](ConfigVisitor& in) { tracker.describe(in); });
   forEachSection([&](const LawSection& section) {

@@ -58,8 +58,9 @@ void BalanceAiding::look(const StateVector& x) noexcept {
   height_moment_ = gravity.height_moment;
 }
 
+template <int kDim>
 void BalanceAiding::step(double h, SimTime time, const JointHistory& joints,
-                         InformationFilter& filter) noexcept {
+                         BasicInformationFilter<kDim>& filter) noexcept {
   if (!settings_.enabled) return;
   StateVector x = wholeBodyState(filter.state(), time, joints);
   const Eigen::Vector2d moment_before = moment_;
@@ -89,12 +90,13 @@ void BalanceAiding::step(double h, SimTime time, const JointHistory& joints,
   explained_.setZero();
 }
 
+template <int kDim>
 void BalanceAiding::correct(const Eigen::Vector2d& tilt_W, double variance,
-                            InformationFilter& filter) noexcept {
+                            BasicInformationFilter<kDim>& filter) noexcept {
   const Matrix3& R = filter.state().R_WB;
   const Eigen::Matrix<double, 2, 3> tilt_by_attitude = R.topRows<2>();
   const Eigen::Matrix2d P = tilt_by_attitude *
-                            filter.covariance().block<3, 3>(kTanAttitude, kTanAttitude) *
+                            filter.covariance().template block<3, 3>(kTanAttitude, kTanAttitude) *
                             tilt_by_attitude.transpose();
   const double floor = std::pow(settings_.moment_sigma / tiltStiffness(), 2);
   Eigen::Matrix2d S = P;
@@ -117,5 +119,10 @@ void BalanceAiding::correct(const Eigen::Vector2d& tilt_W, double variance,
   }
   if (!H.isZero(0)) filter.addRows(H, y);
 }
+
+template void BalanceAiding::step(double, SimTime, const JointHistory&,
+                                  BasicInformationFilter<kTangentDim>&) noexcept;
+template void BalanceAiding::step(double, SimTime, const JointHistory&,
+                                  BasicInformationFilter<kSpinTangentDim>&) noexcept;
 
 }  // namespace ballbot

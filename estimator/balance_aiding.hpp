@@ -36,7 +36,9 @@ class BalanceAiding {
   BalanceAiding(const RobotParameters& robot, const BalanceSettings& settings);
 
   /// The filter has made a step of `h` that ends at `time`; corrects it where a window is full.
-  void step(double h, SimTime time, const JointHistory& joints, InformationFilter& filter) noexcept;
+  template <int kDim>
+  void step(double h, SimTime time, const JointHistory& joints,
+            BasicInformationFilter<kDim>& filter) noexcept;
   /// The last interval was not measured: the window begins anew.
   void interrupt() noexcept { begun_ = false; }
 
@@ -58,7 +60,9 @@ class BalanceAiding {
   }
   /// Gravity now.
   void look(const StateVector& x) noexcept;
-  void correct(const Eigen::Vector2d& tilt_W, double variance, InformationFilter& filter) noexcept;
+  template <int kDim>
+  void correct(const Eigen::Vector2d& tilt_W, double variance,
+               BasicInformationFilter<kDim>& filter) noexcept;
 
   ReducedDynamics dynamics_;
   BalanceSettings settings_;

@@ -1,6 +1,7 @@
 #include "estimator/complementary_observer.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Geometry>
 
@@ -14,7 +15,8 @@ namespace ballbot {
 namespace {
 
 constexpr const char* kBlobKind = "complementary_observer";
-constexpr std::uint32_t kBlobVersion = 2;
+constexpr std::uint32_t kBlobVersion = 3;
+constexpr double kSpinTimeConstant = 0.1;  // [s]
 
 }  // namespace
 
@@ -35,6 +37,9 @@ void ComplementarySettings::describeOwn(ConfigVisitor& v) {
   v.number(may("velocity_innovation_limit_m_per_s",
                "a larger difference between odometry and predicted velocity counts as this much"),
            velocity_innovation_limit_m_per_s, {1e-3, 10});
+  v.number(may("spin_limit_rad_per_s",
+               "spin found by odometry, mean over 0.1 s, above which it is no gyroscope bias"),
+           spin_limit_rad_per_s, {1e-3, 1e6});
 }
 
 ComplementarySettings ComplementarySettings::read(ConfigReader& in) {
@@ -116,8 +121,9 @@ void ComplementaryObserver::step(const SensorFrame& frame) noexcept {
   x_.v_WK_W = predicted + std::min(1.0, (p1 + p2) * h) * innovation;
   x_.w_WB_B = w;
   const double bias_gain = std::min(1.0, h / settings_.gyro_bias_time_constant_s);
-  x_.gyro_bias +=
-      bias_gain * (x_.R_WB.transpose() * (odometry.spin * Vector3::UnitZ() - tilt_rate_W));
+  spin_ += std::min(1.0, h / kSpinTimeConstant) * (odometry.spin - spin_);
+  const double spin = std::abs(spin_) > settings_.spin_limit_rad_per_s ? 0.0 : odometry.spin;
+  x_.gyro_bias += bias_gain * (x_.R_WB.transpose() * (spin * Vector3::UnitZ() - tilt_rate_W));
   yaw_ = unwrapped(yawPitchRollFromRotation(x_.R_WB)[0], yaw_);
   joint_angle_ = angle;
   time_ = frame.imu_time;

@@ -24,6 +24,9 @@ struct ComplementarySettings : SharedSettings {
   double gyro_bias_time_constant_s = 60;
   /// A larger difference between odometry and predicted velocity counts as this much [m/s].
   double velocity_innovation_limit_m_per_s = 0.2;
+  /// Spin that odometry finds, averaged over 0.1 s, above which it is the ball's and no bias of the
+  /// gyroscope [rad/s]. The default lies beyond any.
+  double spin_limit_rad_per_s = 1e6;
 
   void describe(ConfigVisitor& v);
   /// Without those that every estimator has.
@@ -36,8 +39,9 @@ struct ComplementarySettings : SharedSettings {
 /// drives the velocity, and the difference between that velocity and wheel odometry corrects
 /// velocity, tilt and gyroscope bias. Comparing velocities rather than accelerations takes the
 /// base's own acceleration into account without differentiating encoders. The spin that odometry
-/// finds on a ball that cannot spin corrects the bias about the vertical. Position is integrated
-/// odometry. The robot is at px = py = yaw = 0 while it is held; gives no sigma.
+/// finds on a ball that the floor holds corrects the bias about the vertical; where it is more than
+/// a bias can be, the ball spins and corrects nothing. Position is integrated odometry. The robot
+/// is at px = py = yaw = 0 while it is held; gives no sigma.
 class ComplementaryObserver final : public Estimator {
  public:
   ComplementaryObserver(const RobotParameters& robot, const ComplementarySettings& settings);
@@ -61,6 +65,7 @@ class ComplementaryObserver final : public Estimator {
     visit(self.x_);
     visit(self.yaw_);
     visit(self.joint_angle_);
+    visit(self.spin_);
   }
 
  private:
@@ -86,6 +91,7 @@ class ComplementaryObserver final : public Estimator {
   FilterState x_;                                  ///< its accelerometer bias stays zero
   double yaw_ = 0;                                 ///< continuous [rad]
   JointVector joint_angle_ = JointVector::Zero();  ///< at time_
+  double spin_ = 0;                                ///< that odometry finds, averaged [rad/s]
 };
 
 }  // namespace ballbot

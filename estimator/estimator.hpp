@@ -18,6 +18,9 @@ struct StateEstimate {
   /// One standard deviation of (px, py, tilt about the two horizontal axes, yaw | vx, vy, w_B):
   /// for the record and for plots [m, rad, m/s, rad/s].
   Eigen::Matrix<double, 10, 1> sigma = Eigen::Matrix<double, 10, 1>::Zero();
+  /// Of the ball about the vertical, with one standard deviation; zero where it is not estimated
+  /// [rad/s].
+  double spin_rate = 0, spin_rate_sigma = 0;
   bool aligned = false;  ///< false until enough rest was seen to know tilt and gyro bias
 };
 

@@ -22,6 +22,7 @@ class TwoStateEstimator final : public EstimatorSettings {
  public:
   explicit TwoStateEstimator(const TwoStateSettings& settings) : settings_(settings) {}
   std::unique_ptr<Estimator> make(const RobotParameters& robot) const override {
+    if (settings_.spin.enabled) return std::make_unique<SpinTwoStateFilter>(robot, settings_);
     return std::make_unique<TwoStateFilter>(robot, settings_);
   }
   bool usesExternalPose() const override { return settings_.use_external_pose; }

@@ -49,22 +49,29 @@ std::array<bool, kWheelCount> WheelGate::usable(
   return use;
 }
 
-int WheelGate::worstOutlier(const InformationUpdate& solution,
+int WheelGate::worstOutlier(const Vector3& off,
                             const std::array<bool, kWheelCount>& use) const noexcept {
   int worst = -1;
   double size = settings_.wheel_gate_sigma;
   for (int i = 0; i < kWheelCount; ++i) {
     if (!use[static_cast<std::size_t>(i)]) continue;
-    const double off = std::abs(solution.standardizedWheel(i));
-    if (off > size) {
-      size = off;
+    if (std::abs(off[i]) > size) {
+      size = std::abs(off[i]);
       worst = i;
     }
   }
   return worst;
 }
 
-void WheelGate::settle(const InformationUpdate& solution, const IntervalMeasurement& m,
+double WheelGate::largestMean(const std::array<bool, kWheelCount>& use) const noexcept {
+  double largest = 0;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    if (use[i]) largest = std::max(largest, std::abs(wheels_[i].mean));
+  }
+  return largest;
+}
+
+void WheelGate::settle(const Vector3& off, const IntervalMeasurement& m,
                        const std::array<bool, kWheelCount>& used,
                        RejectionCounts& counts) noexcept {
   int measured = 0, refused = 0;
@@ -78,8 +85,7 @@ void WheelGate::settle(const InformationUpdate& solution, const IntervalMeasurem
     Wheel& wheel = wheels_[at];
     wheel.standing = m.wheel_increment[i] == 0 ? wheel.standing + 1 : 0;
     const double limit = settings_.wheel_gate_sigma;
-    const double off = std::clamp(solution.standardizedWheel(i), -limit, limit);
-    wheel.mean += kMeanGain * (off - wheel.mean);
+    wheel.mean += kMeanGain * (std::clamp(off[i], -limit, limit) - wheel.mean);
     if (!used[at]) {
       const bool stuck = refused == 1 && wheel.standing >= kStandingLong;
       counts.add(stuck             ? Rejection::kWheel1Stuck

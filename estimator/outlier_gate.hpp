@@ -1,7 +1,7 @@
 #pragma once
 
-#include "estimator/information_update.hpp"
 #include "estimator/rejections.hpp"
+#include "estimator/residuals.hpp"
 
 namespace ballbot {
 
@@ -56,11 +56,14 @@ class WheelGate {
   std::array<bool, kWheelCount> usable(
       const std::array<bool, kWheelCount>& measured) const noexcept;
   /// The worst of the wheels in use if it is an outlier in this solution, otherwise -1.
-  int worstOutlier(const InformationUpdate& solution,
-                   const std::array<bool, kWheelCount>& use) const noexcept;
+  /// @param off  residuals of the wheels [standard deviations of what they should be]
+  int worstOutlier(const Vector3& off, const std::array<bool, kWheelCount>& use) const noexcept;
   /// Learns from the solution with which the outliers were settled, and counts.
-  void settle(const InformationUpdate& solution, const IntervalMeasurement& m,
+  void settle(const Vector3& off, const IntervalMeasurement& m,
               const std::array<bool, kWheelCount>& used, RejectionCounts& counts) noexcept;
+  /// Of the wheels in use, how far off the residuals of the worst are, averaged over 20 intervals
+  /// [standard deviations].
+  double largestMean(const std::array<bool, kWheelCount>& use) const noexcept;
 
   /// More than one wheel has been refused for longer than the settings allow. One faulty wheel is a
   /// faulty wheel; several at once are a state that fits nothing.

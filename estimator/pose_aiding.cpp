@@ -12,6 +12,12 @@ namespace {
 /// velocity and tilt along by their correlations with yaw, which hold for small angles [rad].
 constexpr double kLinearYaw = 0.05;
 
+/// A pose tells nothing about the spin.
+template <int kDim>
+TangentMatrix withoutSpin(const Eigen::Matrix<double, kDim, kDim>& covariance) {
+  return covariance.template topLeftCorner<kTangentDim, kTangentDim>();
+}
+
 }  // namespace
 
 void PoseAiding::takeAtRest(const Vector3& pose_W, RejectionCounts& counts) noexcept {
@@ -26,7 +32,8 @@ void PoseAiding::tell(SimTime time, const FilterState& x, double yaw) noexcept {
   history_.add({time, x.p_WK_W, yaw});
 }
 
-void PoseAiding::take(const SensorFrame& frame, SimTime time, InformationFilter& filter,
+template <int kDim>
+void PoseAiding::take(const SensorFrame& frame, SimTime time, BasicInformationFilter<kDim>& filter,
                       double& yaw, RejectionCounts& counts) noexcept {
   if (!frame.pose_W.allFinite()) {
     counts.add(Rejection::kNotFinite);
@@ -47,7 +54,7 @@ void PoseAiding::take(const SensorFrame& frame, SimTime time, InformationFilter&
   heading_known_ = true;
   if (!believes(*rows, filter, counts)) return;
 
-  const double turn = rows->yawCorrection(filter.covariance(), settings_);
+  const double turn = rows->yawCorrection(withoutSpin(filter.covariance()), settings_);
   if (std::abs(turn) > kLinearYaw) {
     filter.turn(turn);
     yaw += turn;
@@ -60,7 +67,8 @@ void PoseAiding::take(const SensorFrame& frame, SimTime time, InformationFilter&
   history_.moveTo({time, filter.state().p_WK_W, yaw});
 }
 
-void PoseAiding::bringInTheHeading(InformationFilter& filter) noexcept {
+template <int kDim>
+void PoseAiding::bringInTheHeading(BasicInformationFilter<kDim>& filter) noexcept {
   // A robot placed with another yaw has turned about the place of its release, px = py = 0.
   const FilterState& x = filter.state();
   TangentVector turn = TangentVector::Zero();
@@ -70,9 +78,10 @@ void PoseAiding::bringInTheHeading(InformationFilter& filter) noexcept {
   filter.relax(yaw_sigma_ * yaw_sigma_ * turn * turn.transpose());
 }
 
-bool PoseAiding::believes(const PoseRows& rows, InformationFilter& filter,
+template <int kDim>
+bool PoseAiding::believes(const PoseRows& rows, BasicInformationFilter<kDim>& filter,
                           RejectionCounts& counts) noexcept {
-  if (rows.chiSquare(filter.covariance()) > settings_.chi_square_limit) {
+  if (rows.chiSquare(withoutSpin(filter.covariance())) > settings_.chi_square_limit) {
     counts.add(Rejection::kPoseOutlier);
     if (++refused_ < kPosesUntilBelieved) return false;
     // So many are against it: the estimate has drifted away further than it knows.
@@ -85,5 +94,11 @@ bool PoseAiding::believes(const PoseRows& rows, InformationFilter& filter,
   refused_ = 0;
   return true;
 }
+
+template void PoseAiding::take(const SensorFrame&, SimTime, BasicInformationFilter<kTangentDim>&,
+                               double&, RejectionCounts&) noexcept;
+template void PoseAiding::take(const SensorFrame&, SimTime,
+                               BasicInformationFilter<kSpinTangentDim>&, double&,
+                               RejectionCounts&) noexcept;
 
 }  // namespace ballbot

@@ -25,8 +25,9 @@ class PoseAiding {
   /// Where the filter is now; once per interval. @param yaw continuous [rad]
   void tell(SimTime time, const FilterState& x, double yaw) noexcept;
   /// A pose of a robot in motion: corrects the filter, and the yaw with it.
-  void take(const SensorFrame& frame, SimTime time, InformationFilter& filter, double& yaw,
-            RejectionCounts& counts) noexcept;
+  template <int kDim>
+  void take(const SensorFrame& frame, SimTime time, BasicInformationFilter<kDim>& filter,
+            double& yaw, RejectionCounts& counts) noexcept;
 
   template <typename Self, typename Visitor>
   static void visitState(Self& self, Visitor& visit) {
@@ -37,8 +38,11 @@ class PoseAiding {
   }
 
  private:
-  void bringInTheHeading(InformationFilter& filter) noexcept;
-  bool believes(const PoseRows& rows, InformationFilter& filter, RejectionCounts& counts) noexcept;
+  template <int kDim>
+  void bringInTheHeading(BasicInformationFilter<kDim>& filter) noexcept;
+  template <int kDim>
+  bool believes(const PoseRows& rows, BasicInformationFilter<kDim>& filter,
+                RejectionCounts& counts) noexcept;
 
   ExternalPoseSettings settings_;
   double yaw_sigma_;  ///< [rad]

@@ -67,6 +67,7 @@ Vector3 ResidualModel::leverArmForce(const Vector3& w_old, const Vector3& w_new,
 FilterState ResidualModel::predict(const FilterState& old_state,
                                    const IntervalMeasurement& m) const noexcept {
   FilterState next = old_state;
+  next.spin *= m.spin_kept;
   if (m.has_gyro) next.w_WB_B = m.gyro_B - old_state.gyro_bias;
   next.R_WB = orthonormalized(old_state.R_WB * expSO3(m.h * next.w_WB_B));
   if (m.has_accel) {
@@ -89,6 +90,7 @@ void ResidualModel::evaluate(const FilterState& old_state, const FilterState& ne
   accelRows(old_state, new_state, m, out);
   gyroRows(old_state, new_state, m, out);
   wheelRows(old_state, new_state, m, out);
+  spinRows(old_state, new_state, m, out);
 }
 
 void ResidualModel::kinematicRows(const FilterState& a, const FilterState& b, double h,
@@ -198,6 +200,22 @@ void ResidualModel::wheelRows(const FilterState& a, const FilterState& b,
   out.d_new.block<3, 2>(kRowWheels, kTanVelocity) = half * (b.R_WB.transpose() * J);
   out.d_old.block<3, 2>(kRowWheels, kTanVelocity) = half * (a.R_WB.transpose() * J);
   out.d_new.block<3, 3>(kRowWheels, kTanOmega) = s * base_to_wheels_;
+}
+
+void ResidualModel::spinRows(const FilterState& a, const FilterState& b,
+                             const IntervalMeasurement& m, Residuals& out) const noexcept {
+  // What the spin adds to the wheels' rows.
+  const Vector3 up_new = b.R_WB.row(2), up_old = a.R_WB.row(2);
+  const Matrix3 half = -0.5 * m.h / noise_.wheel_increment * base_to_wheels_;
+  const Vector3 by_spin = half * (up_new + up_old);
+  out.y.segment<3>(kRowWheels) += b.spin * by_spin;
+  out.d_new.block<3, 3>(kRowWheels, kTanAttitude) += m.smooth_spin * half * skew(up_new);
+  out.d_old.block<3, 3>(kRowWheels, kTanAttitude) += m.smooth_spin * half * skew(up_old);
+  out.d_new.block<3, 1>(kRowWheels, kTanSpin) = by_spin;
+
+  out.y[kRowSpin] = (b.spin - m.spin_kept * a.spin) / m.spin_sigma;
+  out.d_new(kRowSpin, kTanSpin) = 1 / m.spin_sigma;
+  out.d_old(kRowSpin, kTanSpin) = -m.spin_kept / m.spin_sigma;
 }
 
 }  // namespace ballbot

@@ -38,6 +38,12 @@ struct IntervalMeasurement {
   /// attitude (smooth_velocity.hpp says why that is not the estimate) [m/s].
   Eigen::Vector2d smooth_v_old_W = Eigen::Vector2d::Zero();
   Eigen::Vector2d smooth_v_new_W = Eigen::Vector2d::Zero();
+  /// The ball's spin is so much of that of the interval before, and noise of one standard deviation
+  /// of `spin_sigma` [rad/s].
+  double spin_kept = 1, spin_sigma = 1;
+  /// Spin at which the wheels' residuals are differentiated by attitude: one that has none of this
+  /// interval's noise [rad/s].
+  double smooth_spin = 0;
 };
 
 /// First row of each residual.
@@ -49,10 +55,11 @@ enum ResidualRow : int {
   kRowWheels = 11,
   kRowAccelBias = 14,
   kRowGyroBias = 17,
+  kRowSpin = 20,  ///< 1 row, for a filter that estimates the spin
 };
-constexpr int kResidualDim = 20;
+constexpr int kResidualDim = 21;
 using ResidualVector = Eigen::Matrix<double, kResidualDim, 1>;
-using ResidualJacobian = Eigen::Matrix<double, kResidualDim, kTangentDim>;
+using ResidualJacobian = Eigen::Matrix<double, kResidualDim, kSpinTangentDim>;
 
 /// Residuals between two consecutive states, divided by their standard deviations, and their
 /// derivatives by the tangents of the old and the new state.
@@ -63,18 +70,21 @@ struct Residuals {
 };
 
 /// The residuals of the two-state implicit filter (Bloesch et al., "The Two-State Implicit
-/// Filter", RA-L 2018) for a ball that rolls on a level floor without slip or spin. Old state "-",
-/// f(R, v) = -(r/r_w) D R' J v the wheel rates of the rolling ball, J v = (z x v) / r:
+/// Filter", RA-L 2018) for a ball that rolls on a level floor without slip. Old state "-",
+/// f(R, v) = -(r/r_w) D R' J v the wheel rates of the rolling ball, J v = (z x v) / r, and
+/// n(R) = -(r/r_w) D R' z those of a ball that spins about the vertical with 1 rad/s:
 ///
 ///   position      p - p- - h (v + v-)/2
 ///   attitude      log(R-' R) - h w
 ///   accelerometer mean(R', R-') [(v - v-)/h; g] + (w - w-)/h x p_BI + w x (w x p_BI) + b_a - accel
 ///   gyroscope     w + b_g - gyro
-///   wheels        (f(R, v) + f(R-, v-))/2 + (r/r_w) D w - increment/h
+///   wheels        (f(R, v) + f(R-, v-))/2 + (n(R) + n(R-))/2 s + (r/r_w) D w - increment/h
 ///   biases        b - b-
+///   spin          s - spin_kept s-
 ///
-/// w is the mean over the interval. Where accelerometer or gyroscope are missing, their rows say
-/// that velocity and angular velocity change slowly. Free of allocation; for the control step.
+/// w and s are means over the interval. A filter that takes the spin for zero leaves out the last
+/// row and the last column. Where accelerometer or gyroscope are missing, their rows say that
+/// velocity and angular velocity change slowly. Free of allocation; for the control step.
 class ResidualModel {
  public:
   ResidualModel(const RobotParameters& robot, const FilterNoise& noise);
@@ -101,6 +111,8 @@ class ResidualModel {
                 Residuals& out) const noexcept;
   void wheelRows(const FilterState& a, const FilterState& b, const IntervalMeasurement& m,
                  Residuals& out) const noexcept;
+  void spinRows(const FilterState& a, const FilterState& b, const IntervalMeasurement& m,
+                Residuals& out) const noexcept;
 
   FilterNoise noise_;
   double gravity_;          ///< [m/s^2]

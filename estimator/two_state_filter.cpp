@@ -10,20 +10,33 @@
 namespace ballbot {
 namespace {
 
-constexpr const char* kBlobKind = "two_state_filter";
-constexpr std::uint32_t kBlobVersion = 3;
+template <int kDim>
+constexpr const char* kBlobKind = kDim > kTanSpin ? "two_state_spin_filter" : "two_state_filter";
+constexpr std::uint32_t kBlobVersion = 4;
 /// Of an IMU: a counter that jumps must not make a millisecond a thousand intervals.
 constexpr SimDuration kShortestPeriod{100'000};
 constexpr double kLargestYawSigma = 0.1;  // [rad]
+constexpr double kSpinInMotion = 1.0;     // [rad/s]
+
+/// Together with a spin of which nothing else tells, one standard deviation [rad/s].
+template <int kDim>
+BasicTangentMatrix<kDim> withSpin(const TangentMatrix& information, double sigma) {
+  BasicTangentMatrix<kDim> out = BasicTangentMatrix<kDim>::Zero();
+  out.template topLeftCorner<kTangentDim, kTangentDim>() = information;
+  if constexpr (kDim > kTanSpin) out(kTanSpin, kTanSpin) = 1 / (sigma * sigma);
+  return out;
+}
 
 }  // namespace
 
-TwoStateFilter::TwoStateFilter(const RobotParameters& robot, const TwoStateSettings& settings)
+template <int kDim>
+BasicTwoStateFilter<kDim>::BasicTwoStateFilter(const RobotParameters& robot,
+                                               const TwoStateSettings& settings)
     : settings_(settings),
       gravity_(robot.gravity),
       arm_(settings.arm_rate_time_constant_s),
       filter_(robot, settings.noise, settings.gate, settings.initial.accel_bias,
-              settings.iterations),
+              settings.iterations, settings.spin),
       accel_gate_(settings.gate.accel_jump_m_per_s2),
       gyro_gate_(settings.gate.gyro_jump_rad_per_s),
       poses_(settings.pose, settings.initial.yaw),
@@ -34,7 +47,8 @@ TwoStateFilter::TwoStateFilter(const RobotParameters& robot, const TwoStateSetti
   align(SensorFrame{});
 }
 
-bool TwoStateFilter::update(const SensorFrame& frame, bool at_rest) noexcept {
+template <int kDim>
+bool BasicTwoStateFilter<kDim>::update(const SensorFrame& frame, bool at_rest) noexcept {
   switch (order_.judge(frame.time)) {
     case FrameTime::kNext:
       break;
@@ -74,7 +88,8 @@ bool TwoStateFilter::update(const SensorFrame& frame, bool at_rest) noexcept {
   return true;
 }
 
-void TwoStateFilter::takeImu(const SensorFrame& frame) noexcept {
+template <int kDim>
+void BasicTwoStateFilter<kDim>::takeImu(const SensorFrame& frame) noexcept {
   if (!frame.accel_B.allFinite() || !frame.gyro_WB_B.allFinite()) {
     counts_.add(Rejection::kNotFinite);
     return;
@@ -106,7 +121,8 @@ void TwoStateFilter::takeImu(const SensorFrame& frame) noexcept {
   stepTo(frame.imu_time, &frame);
 }
 
-void TwoStateFilter::align(const SensorFrame& frame) noexcept {
+template <int kDim>
+void BasicTwoStateFilter<kDim>::align(const SensorFrame& frame) noexcept {
   if (frame.imu_count > 0) {
     if (alignment_.samples() == 0) {
       first_imu_count_ = frame.imu_count;
@@ -123,10 +139,12 @@ void TwoStateFilter::align(const SensorFrame& frame) noexcept {
                                             settings_.noise, toSeconds(imu_period_), gravity_);
   placeAt(poses_.atRest(), settings_.pose, initial);
   yaw_ = unwrapped(poses_.atRest().mean()[2], yaw_);
-  filter_.initialise(initial.x, initial.information);
+  const double spin_sigma = released_ ? kSpinInMotion : settings_.spin.creep;
+  filter_.initialise(initial.x, withSpin<kDim>(initial.information, spin_sigma));
 }
 
-void TwoStateFilter::leapTo(SimTime time) noexcept {
+template <int kDim>
+void BasicTwoStateFilter<kDim>::leapTo(SimTime time) noexcept {
   if (!running_) return;
   counts_.add(Rejection::kStateDoubted);
   filter_.doubt();
@@ -136,7 +154,8 @@ void TwoStateFilter::leapTo(SimTime time) noexcept {
   followYaw();
 }
 
-void TwoStateFilter::release(const SensorFrame& frame) noexcept {
+template <int kDim>
+void BasicTwoStateFilter<kDim>::release(const SensorFrame& frame) noexcept {
   // Where samples were missing before the release, the robot stood.
   time_ = std::max(time_, frame.imu_time - imu_period_);
   FilterState x = filter_.state();
@@ -152,7 +171,8 @@ void TwoStateFilter::release(const SensorFrame& frame) noexcept {
   followYaw();
 }
 
-void TwoStateFilter::stepTo(SimTime time, const SensorFrame* imu) noexcept {
+template <int kDim>
+void BasicTwoStateFilter<kDim>::stepTo(SimTime time, const SensorFrame* imu) noexcept {
   IntervalMeasurement m;
   m.h = toSeconds(time - time_);
   if (imu == nullptr) {
@@ -185,12 +205,14 @@ void TwoStateFilter::stepTo(SimTime time, const SensorFrame* imu) noexcept {
   followYaw();
 }
 
-void TwoStateFilter::followYaw() noexcept {
+template <int kDim>
+void BasicTwoStateFilter<kDim>::followYaw() noexcept {
   yaw_ = unwrapped(yawPitchRollFromRotation(filter_.state().R_WB)[0], yaw_);
   poses_.tell(time_, filter_.state(), yaw_);
 }
 
-StateEstimate TwoStateFilter::estimate(SimTime now) const noexcept {
+template <int kDim>
+StateEstimate BasicTwoStateFilter<kDim>::estimate(SimTime now) const noexcept {
   const FilterState& x = filter_.state();
   StateEstimate out;
   out.time = now;
@@ -200,19 +222,25 @@ StateEstimate TwoStateFilter::estimate(SimTime now) const noexcept {
   arm_.writeTo(now, out.x);
 
   // Of the covariance C C' only the diagonal is wanted, for the attitude about the axes of W.
-  const TangentMatrix& C = filter_.covarianceRoot();
-  out.sigma << C.middleRows<2>(kTanPosition).rowwise().norm(),
-      (x.R_WB * C.middleRows<3>(kTanAttitude)).rowwise().norm(),
-      C.middleRows<5>(kTanVelocity).rowwise().norm();
+  const BasicTangentMatrix<kDim>& C = filter_.covarianceRoot();
+  out.sigma << C.template middleRows<2>(kTanPosition).rowwise().norm(),
+      (x.R_WB * C.template middleRows<3>(kTanAttitude)).rowwise().norm(),
+      C.template middleRows<5>(kTanVelocity).rowwise().norm();
+  if constexpr (kSpins) {
+    out.spin_rate = x.spin;
+    out.spin_rate_sigma = C.row(kTanSpin).norm();
+  }
   return out;
 }
 
-std::optional<SelfAssessment> TwoStateFilter::selfAssessment() const noexcept {
+template <int kDim>
+std::optional<SelfAssessment> BasicTwoStateFilter<kDim>::selfAssessment() const noexcept {
   if (!running_) return std::nullopt;
   const FilterState& x = filter_.state();
-  const TangentMatrix& C = filter_.covarianceRoot();
-  Eigen::Matrix<double, 4, kTangentDim> root;
-  root << x.R_WB.topRows<2>() * C.middleRows<3>(kTanAttitude), C.middleRows<2>(kTanVelocity);
+  const BasicTangentMatrix<kDim>& C = filter_.covarianceRoot();
+  Eigen::Matrix<double, 4, kDim> root;
+  root << x.R_WB.template topRows<2>() * C.template middleRows<3>(kTanAttitude),
+      C.template middleRows<2>(kTanVelocity);
   SelfAssessment out;
   out.time = time_;
   out.tilt_velocity_covariance = root * root.transpose();
@@ -223,10 +251,17 @@ std::optional<SelfAssessment> TwoStateFilter::selfAssessment() const noexcept {
   return out;
 }
 
-StateBlob TwoStateFilter::saveState() const { return saveStateOf(*this, kBlobKind, kBlobVersion); }
-
-void TwoStateFilter::restoreState(const StateBlob& blob) {
-  restoreStateOf(*this, blob, kBlobKind, kBlobVersion);
+template <int kDim>
+StateBlob BasicTwoStateFilter<kDim>::saveState() const {
+  return saveStateOf(*this, kBlobKind<kDim>, kBlobVersion);
 }
+
+template <int kDim>
+void BasicTwoStateFilter<kDim>::restoreState(const StateBlob& blob) {
+  restoreStateOf(*this, blob, kBlobKind<kDim>, kBlobVersion);
+}
+
+template class BasicTwoStateFilter<kTangentDim>;
+template class BasicTwoStateFilter<kSpinTangentDim>;
 
 }  // namespace ballbot

@@ -20,9 +20,10 @@ namespace ballbot {
 /// While held (`at_rest`) tilt and gyroscope bias are aligned, and px = py = yaw = 0 unless poses
 /// from outside say where the robot stands; with the release the filter starts, and rest has no
 /// meaning of its own any more.
-class TwoStateFilter final : public Estimator {
+template <int kDim>
+class BasicTwoStateFilter final : public Estimator {
  public:
-  TwoStateFilter(const RobotParameters& robot, const TwoStateSettings& settings);
+  BasicTwoStateFilter(const RobotParameters& robot, const TwoStateSettings& settings);
 
   bool update(const SensorFrame& frame, bool at_rest) noexcept override;
   StateEstimate estimate(SimTime now) const noexcept override;
@@ -59,11 +60,13 @@ class TwoStateFilter final : public Estimator {
   /// The state at its own time, the last inertial sample, with its covariance.
   SimTime stateTime() const { return time_; }
   const FilterState& state() const { return filter_.state(); }
-  TangentMatrix covariance() const noexcept { return filter_.covariance(); }
-  const TangentMatrix& information() const { return filter_.information(); }
+  BasicTangentMatrix<kDim> covariance() const noexcept { return filter_.covariance(); }
+  const BasicTangentMatrix<kDim>& information() const { return filter_.information(); }
   /// Chi-square of the last update, with its degrees of freedom.
   double nis() const { return filter_.nis(); }
   int nisDegrees() const { return filter_.nisDegrees(); }
+  /// The floor does not hold the ball; never, where the spin is not estimated.
+  bool spinning() const { return filter_.spinning(); }
 
  private:
   void takeImu(const SensorFrame& frame) noexcept;
@@ -73,13 +76,15 @@ class TwoStateFilter final : public Estimator {
   void stepTo(SimTime time, const SensorFrame* imu) noexcept;
   void followYaw() noexcept;
 
+  static constexpr bool kSpins = kDim > kTanSpin;
+
   TwoStateSettings settings_;
   double gravity_;  ///< [m/s^2]
   FrameOrder order_;
   ArmSensing arm_;
   JointHistory joints_;
   RestAlignment alignment_;
-  InformationFilter filter_;
+  BasicInformationFilter<kDim> filter_;
   SpikeGate accel_gate_, gyro_gate_;
   PoseAiding poses_;
   BalanceAiding balance_;
@@ -96,5 +101,9 @@ class TwoStateFilter final : public Estimator {
   Vector3 wheel_angle_ = Vector3::Zero();  ///< at time_ [rad]
   bool wheel_angle_known_ = false;
 };
+/// The ball does not spin.
+using TwoStateFilter = BasicTwoStateFilter<kTangentDim>;
+/// It may.
+using SpinTwoStateFilter = BasicTwoStateFilter<kSpinTangentDim>;
 
 }  // namespace ballbot

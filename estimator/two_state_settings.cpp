@@ -19,6 +19,8 @@ void TwoStateSettings::describeOwn(ConfigVisitor& v) {
             [&](ConfigVisitor& in) { gate.describe(in); });
   v.section(may("balance", "tilt from the way the robot falls"),
             [&](ConfigVisitor& in) { balance.describe(in); });
+  v.section(may("spin", "of the ball about the vertical, which the floor holds by friction alone"),
+            [&](ConfigVisitor& in) { spin.describe(in); });
   v.section(may("external_pose", "use of poses that an outside system measures; off without it"),
             [&](ConfigVisitor& in) {
               use_external_pose = true;

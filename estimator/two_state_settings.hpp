@@ -6,6 +6,7 @@
 #include "estimator/outlier_gate.hpp"
 #include "estimator/residuals.hpp"
 #include "estimator/shared_settings.hpp"
+#include "estimator/spin_gate.hpp"
 
 namespace ballbot {
 
@@ -18,6 +19,7 @@ struct TwoStateSettings : SharedSettings {
   GateSettings gate;
   ExternalPoseSettings pose;
   BalanceSettings balance;
+  SpinSettings spin;
   bool use_external_pose = false;
   int iterations = 2;
   /// An inertial sample may arrive so late; after that its interval is gone through without it.

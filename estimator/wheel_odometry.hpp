@@ -7,8 +7,8 @@ namespace ballbot {
 /// What three wheel rates and the base's angular velocity say about the ball.
 struct BallMotion {
   Eigen::Vector2d velocity_W = Eigen::Vector2d::Zero();  ///< of the ball centre, in W [m/s]
-  /// Angular velocity about the vertical [rad/s]. The ball does not spin, so what stands here is
-  /// the error of the angular velocity that was given.
+  /// Angular velocity about the vertical [rad/s]. While the floor holds the ball it does not spin,
+  /// and what stands here is the error of the angular velocity that was given.
   double spin = 0;
 };
 

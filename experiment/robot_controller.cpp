@@ -22,7 +22,7 @@ RobotController::RobotController(const RunConfig& config, EventCalendar& calenda
       plan_latency_(config.scenario.rates.plan_latency),
       sensing_(config),
       law_(config.controller.makeLaw()),
-      tracker_(std::make_unique<PdTracker>(config.controller.tracker)) {
+      tracker_(std::make_unique<PdTracker>(config.controller.tracker, config.believedRobot())) {
   added_to_plan_.list = config.controller.law->addedToPlan();
   added_to_plan_.values.assign(added_to_plan_.list.size(), 0.0);
   const Rates& rates = config.scenario.rates;

@@ -19,10 +19,11 @@ struct Errors {
 
 /// Runs for `seconds` and compares with the truth at every IMU tick after the release.
 Errors run(const MotionScript& script, const SensorNoise& noise, double seconds,
-           const std::function<void(SensorFrame&)>& disturb = {}) {
+           const std::function<void(SensorFrame&)>& disturb = {},
+           const ComplementarySettings& settings = {}) {
   const RobotParameters robot = estimatorTestRobot();
   SimulatedSensors sensors(script, robot, noise, 7);
-  ComplementaryObserver observer(robot, {});
+  ComplementaryObserver observer(robot, settings);
   double tilt2 = 0, velocity2 = 0;
   int count = 0;
   Errors e;
@@ -97,6 +98,24 @@ TEST(ComplementaryObserver, NoSpinFindsTheYawRateBiasThatGravityCannotShow) {
   const Errors e = run(standingStill(), noNoise(), 300, add_bias);
   // It is learned with 60 s: the yaw error ends at 0.02 * 60 rad; without, it would be 12 rad.
   EXPECT_NEAR(e.yaw_deg * kRadPerDeg, 1.2, 0.05);
+}
+
+TEST(ComplementaryObserver, TakesASpinningBallForABiasUnlessALimitSaysOtherwise) {
+  MotionScript script = standingStill();
+  script.spins = {{2, 22, 1, 0.05}};
+  const Errors blind = run(script, noNoise(), 22);
+  ComplementarySettings limited;
+  limited.spin_limit_rad_per_s = 0.05;
+  const Errors gated = run(script, noNoise(), 22, {}, limited);
+  // 1 rad/s learned with 60 s for 20 s: yaw goes wrong by about 20^2 / (2 * 60) rad.
+  EXPECT_GT(blind.yaw_deg, 100);
+  EXPECT_LT(gated.yaw_deg, 0.2);
+  // Below the limit a bias is learned as ever.
+  const auto add_bias = [](SensorFrame& frame) {
+    if (toSeconds(frame.time) > 1.0) frame.gyro_WB_B.z() += 0.02;
+  };
+  const Errors biased = run(standingStill(), noNoise(), 300, add_bias, limited);
+  EXPECT_NEAR(biased.yaw_deg * kRadPerDeg, 1.2, 0.05);
 }
 
 TEST(ComplementaryObserver, YawIsContinuousAcrossHalfTurns) {

@@ -28,6 +28,17 @@ TEST(FilterState, PlusAndMinusUndoEachOther) {
   }
 }
 
+TEST(FilterState, PlusAndMinusKnowTheSpinWhereItIsEstimated) {
+  using SpinTangent = BasicTangentVector<kSpinTangentDim>;
+  FilterState x;
+  x.spin = 0.4;
+  const SpinTangent d = 0.1 * SpinTangent::Ones();
+  EXPECT_NEAR(x.plus(d).spin, 0.5, 1e-15);
+  EXPECT_LT((x.plus(d).minus<kSpinTangentDim>(x) - d).norm(), 1e-12);
+  const TangentVector without = d.head<kTangentDim>();
+  EXPECT_EQ(x.plus(without).spin, 0.4);
+}
+
 TEST(FilterState, StaysOnTheManifoldThroughAMillionUpdates) {
   FilterState x;
   const TangentVector d = randomTangent(1, 1e-2), e = randomTangent(2, 1e-2);

@@ -14,7 +14,7 @@
 namespace ballbot::test {
 namespace {
 
-constexpr std::size_t kBoth = 2 * kTangentDim;
+constexpr std::size_t kBoth = 2 * kSpinTangentDim;  // room for both kinds of filter
 using LongVector = std::array<long double, kBoth>;
 using LongMatrix = std::array<LongVector, kBoth>;
 
@@ -59,6 +59,9 @@ Residuals someResiduals(std::uint64_t seed) {
   m.gyro_B = a.w_WB_B + draw(4, 3e-3);
   m.smooth_v_old_W = a.v_WK_W;
   m.smooth_v_new_W = a.v_WK_W + Eigen::Vector2d(3e-4, -4e-4);
+  m.spin_kept = 0.97;
+  m.spin_sigma = 0.03;
+  m.smooth_spin = 0.4;
   const ResidualModel model(estimatorTestRobot(), FilterNoise{});
   const FilterState b = model.predict(a, m);
   Residuals r;
@@ -68,30 +71,34 @@ Residuals someResiduals(std::uint64_t seed) {
   return r;
 }
 
-TangentMatrix somePrior(std::uint64_t seed) {
+template <int kDim>
+BasicTangentMatrix<kDim> somePrior(std::uint64_t seed) {
+  using Matrix = BasicTangentMatrix<kDim>;
   const RandomStream random(seed, "prior");
-  TangentMatrix A;
+  Matrix A;
   for (int i = 0; i < A.size(); ++i) A.data()[i] = random.normals(static_cast<std::uint64_t>(i))[0];
-  const TangentVector weight = (TangentVector() << 1e2, 1e2, 300, 300, 50, 300, 300, 400, 400, 400,
-                                30, 30, 30, 3e3, 3e3, 3e3)
-                                   .finished();
-  const TangentMatrix W = weight.asDiagonal();
-  return W * (TangentMatrix::Identity() + 0.1 * A * A.transpose()) * W;
+  const BasicTangentVector<kSpinTangentDim> weight =
+      (BasicTangentVector<kSpinTangentDim>() << 1e2, 1e2, 300, 300, 50, 300, 300, 400, 400, 400, 30,
+       30, 30, 3e3, 3e3, 3e3, 20)
+          .finished();
+  const Matrix W = weight.head<kDim>().asDiagonal();
+  return W * (Matrix::Identity() + 0.1 * A * A.transpose()) * W;
 }
 
-/// The whole least-squares problem over old and new state at once, by inverting its 32 x 32 matrix.
+/// The whole least-squares problem over old and new state at once, by inverting its matrix.
+template <int kDim>
 struct Reference {
-  LongVector delta{};         // old, new
-  LongMatrix covariance{};    // of both
-  TangentMatrix information;  // of the new state: inverse of its part of the covariance
+  LongVector delta{};                    // old, new
+  LongMatrix covariance{};               // of both
+  BasicTangentMatrix<kDim> information;  // of the new state: inverse of its part of the covariance
   long double chi_square = 0;
 
   /// Residual of a wheel's row and variance of what the solution says about it.
   std::array<long double, 2> wheel(const Residuals& r, int i) const {
     long double value = r.y[kRowWheels + i], variance = 0;
-    for (std::size_t k = 0; k < kBoth; ++k) {
+    for (std::size_t k = 0; k < 2 * kDim; ++k) {
       value += entry(r, kRowWheels + i, k) * delta[k];
-      for (std::size_t l = 0; l < kBoth; ++l) {
+      for (std::size_t l = 0; l < 2 * kDim; ++l) {
         variance += entry(r, kRowWheels + i, k) * covariance[k][l] * entry(r, kRowWheels + i, l);
       }
     }
@@ -99,45 +106,47 @@ struct Reference {
   }
   static long double entry(const Residuals& r, int row, std::size_t column) {
     const int k = static_cast<int>(column);
-    return k < kTangentDim ? r.d_old(row, k) : r.d_new(row, k - kTangentDim);
+    return k < kDim ? r.d_old(row, k) : r.d_new(row, k - kDim);
   }
 };
 
-Reference solveAtOnce(const TangentMatrix& prior, const Residuals& r,
-                      const std::array<bool, 3>& use_wheel) {
-  Reference out;
+template <int kDim>
+Reference<kDim> solveAtOnce(const Eigen::Matrix<double, kDim, kDim>& prior, const Residuals& r,
+                            const std::array<bool, 3>& use_wheel) {
+  constexpr std::size_t kUnknowns = 2 * kDim;
+  Reference<kDim> out;
   LongMatrix H{};
   LongVector g{};
-  for (int k = 0; k < kTangentDim; ++k) {
-    for (int l = 0; l < kTangentDim; ++l) {
+  for (int k = 0; k < kDim; ++k) {
+    for (int l = 0; l < kDim; ++l) {
       H[static_cast<std::size_t>(k)][static_cast<std::size_t>(l)] = prior(k, l);
     }
   }
-  for (int row = 0; row < kResidualDim; ++row) {
+  for (int row = 0; row < (kDim > kTanSpin ? kResidualDim : kRowSpin); ++row) {
     const int wheel = row - kRowWheels;
     if (wheel >= 0 && wheel < 3 && !use_wheel[static_cast<std::size_t>(wheel)]) continue;
-    for (std::size_t k = 0; k < kBoth; ++k) {
-      g[k] += Reference::entry(r, row, k) * static_cast<long double>(r.y[row]);
-      for (std::size_t l = 0; l < kBoth; ++l) {
-        H[k][l] += Reference::entry(r, row, k) * Reference::entry(r, row, l);
+    for (std::size_t k = 0; k < kUnknowns; ++k) {
+      g[k] += Reference<kDim>::entry(r, row, k) * static_cast<long double>(r.y[row]);
+      for (std::size_t l = 0; l < kUnknowns; ++l) {
+        H[k][l] += Reference<kDim>::entry(r, row, k) * Reference<kDim>::entry(r, row, l);
       }
     }
     out.chi_square += static_cast<long double>(r.y[row]) * r.y[row];
   }
-  out.covariance = inverted(H, kBoth);
-  for (std::size_t k = 0; k < kBoth; ++k) {
-    for (std::size_t l = 0; l < kBoth; ++l) out.delta[k] -= out.covariance[k][l] * g[l];
+  out.covariance = inverted(H, kUnknowns);
+  for (std::size_t k = 0; k < kUnknowns; ++k) {
+    for (std::size_t l = 0; l < kUnknowns; ++l) out.delta[k] -= out.covariance[k][l] * g[l];
     out.chi_square += g[k] * out.delta[k];
   }
   LongMatrix of_new{};
-  for (std::size_t k = 0; k < kTangentDim; ++k) {
-    for (std::size_t l = 0; l < kTangentDim; ++l) {
-      of_new[k][l] = out.covariance[kTangentDim + k][kTangentDim + l];
+  for (std::size_t k = 0; k < kDim; ++k) {
+    for (std::size_t l = 0; l < kDim; ++l) {
+      of_new[k][l] = out.covariance[kDim + k][kDim + l];
     }
   }
-  const LongMatrix information = inverted(of_new, kTangentDim);
-  for (int k = 0; k < kTangentDim; ++k) {
-    for (int l = 0; l < kTangentDim; ++l) {
+  const LongMatrix information = inverted(of_new, kDim);
+  for (int k = 0; k < kDim; ++k) {
+    for (int l = 0; l < kDim; ++l) {
       out.information(k, l) = static_cast<double>(
           information[static_cast<std::size_t>(k)][static_cast<std::size_t>(l)]);
     }
@@ -148,29 +157,32 @@ Reference solveAtOnce(const TangentMatrix& prior, const Residuals& r,
 const std::array<std::array<bool, 3>, 3> kWheelChoices = {
     {{true, true, true}, {true, false, true}, {false, false, false}}};
 
-TEST(InformationUpdate, IsTheLeastSquaresSolution) {
+template <int kDim>
+void isTheLeastSquaresSolution() {
+  using Vector = BasicTangentVector<kDim>;
+  using Matrix = BasicTangentMatrix<kDim>;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Residuals r = someResiduals(seed);
-    const TangentMatrix prior = somePrior(seed);
+    const Matrix prior = somePrior<kDim>(seed);
     for (const auto& use : kWheelChoices) {
-      InformationUpdate update;
+      BasicInformationUpdate<kDim> update;
       ASSERT_TRUE(update.solve(prior, r, use));
-      const Reference reference = solveAtOnce(prior, r, use);
-      TangentVector delta;
-      for (int k = 0; k < kTangentDim; ++k) {
-        delta[k] = static_cast<double>(reference.delta[static_cast<std::size_t>(kTangentDim + k)]);
+      const Reference<kDim> reference = solveAtOnce(prior, r, use);
+      Vector delta;
+      for (int k = 0; k < kDim; ++k) {
+        delta[k] = static_cast<double>(reference.delta[static_cast<std::size_t>(kDim + k)]);
       }
-      const TangentMatrix& information = reference.information;
+      const Matrix& information = reference.information;
       // In standard deviations, so that units do not matter.
-      const TangentVector error = update.delta() - delta;
+      const Vector error = update.delta() - delta;
       EXPECT_LT(std::sqrt(error.dot(information * error)), 1e-6);
       EXPECT_NEAR(update.chiSquare(), static_cast<double>(reference.chi_square), 1e-6);
-      const TangentVector sigma = information.diagonal().cwiseSqrt().cwiseInverse();
-      const TangentMatrix off =
+      const Vector sigma = information.diagonal().cwiseSqrt().cwiseInverse();
+      const Matrix off =
           sigma.asDiagonal() * (update.information() - information) * sigma.asDiagonal();
       EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-6);
-      const TangentMatrix root = update.covarianceRoot();
-      EXPECT_LT((root * root.transpose() * update.information() - TangentMatrix::Identity())
+      const Matrix root = update.covarianceRoot();
+      EXPECT_LT((root * root.transpose() * update.information() - Matrix::Identity())
                     .cwiseAbs()
                     .maxCoeff(),
                 1e-4);
@@ -178,11 +190,18 @@ TEST(InformationUpdate, IsTheLeastSquaresSolution) {
   }
 }
 
-TEST(InformationUpdate, JudgesAWheelByWhatAllTheRestSays) {
+TEST(InformationUpdate, IsTheLeastSquaresSolution) { isTheLeastSquaresSolution<kTangentDim>(); }
+
+TEST(InformationUpdate, IsTheLeastSquaresSolutionWithSpin) {
+  isTheLeastSquaresSolution<kSpinTangentDim>();
+}
+
+template <int kDim>
+void judgesAWheelByWhatAllTheRestSays() {
   const Residuals r = someResiduals(4);
-  const TangentMatrix prior = somePrior(4);
+  const auto prior = somePrior<kDim>(4);
   for (const auto& use : kWheelChoices) {
-    InformationUpdate update;
+    BasicInformationUpdate<kDim> update;
     ASSERT_TRUE(update.solve(prior, r, use));
     for (int i = 0; i < 3; ++i) {
       // The textbook way: leave the wheel out, predict its residual, divide by the deviation of
@@ -197,15 +216,42 @@ TEST(InformationUpdate, JudgesAWheelByWhatAllTheRestSays) {
   }
 }
 
+TEST(InformationUpdate, JudgesAWheelByWhatAllTheRestSays) {
+  judgesAWheelByWhatAllTheRestSays<kTangentDim>();
+  judgesAWheelByWhatAllTheRestSays<kSpinTangentDim>();
+}
+
+TEST(InformationUpdate, AShiftTakesAwayItsSquareOfTheCost) {
+  // The best multiple of a shift taken out of the wheels lowers the minimum by the square of the
+  // standardised shift; found here by trying, the minimum being a parabola in that multiple.
+  const Residuals r = someResiduals(6);
+  const auto prior = somePrior<kSpinTangentDim>(6);
+  const Vector3 shift(0.8, 1.1, -0.6);
+  BasicInformationUpdate<kSpinTangentDim> update;
+  for (const auto& use : {std::array<bool, 3>{true, true, true}, {true, false, true}}) {
+    const auto minimum = [&](double multiple) {
+      Residuals shifted = r;
+      shifted.y.segment<3>(kRowWheels) -= multiple * shift;
+      EXPECT_TRUE(update.solve(prior, shifted, use));
+      return update.chiSquare();
+    };
+    const double left = minimum(-1), right = minimum(1), middle = minimum(0);
+    const double expected = update.standardizedShift(shift);
+    const double slope = (right - left) / 2, bend = (right + left) / 2 - middle;
+    EXPECT_NEAR(expected * expected, slope * slope / (4 * bend), 1e-6);
+    EXPECT_GT(std::abs(expected), 0.05);
+  }
+}
+
 TEST(InformationUpdate, SaysSoWhereThereIsNoSolution) {
   const Residuals r = someResiduals(1);
   InformationUpdate update;
-  TangentMatrix bad = somePrior(1);
+  TangentMatrix bad = somePrior<kTangentDim>(1);
   bad(5, 5) = -1e12;
   EXPECT_FALSE(update.solve(bad, r, {true, true, true}));
   Residuals nan = r;
   nan.y[kRowAccel] = std::nan("");
-  EXPECT_FALSE(update.solve(somePrior(1), nan, {true, true, true}));
+  EXPECT_FALSE(update.solve(somePrior<kTangentDim>(1), nan, {true, true, true}));
 }
 
 TEST(PartialLdlt, LeavesTheSchurComplement) {
@@ -235,11 +281,12 @@ TEST(PartialLdlt, RefusesAPivotThatIsNotPositive) {
 }
 
 TEST(InverseRoot, IsARootOfTheInverse) {
-  const TangentMatrix spd = somePrior(2);
+  const TangentMatrix spd = somePrior<kTangentDim>(2);
+  const TangentMatrix negative = -spd;
   const TangentMatrix root = inverseRoot(spd);
   EXPECT_LT((root.transpose() * spd * root - TangentMatrix::Identity()).norm(), 1e-10);
   EXPECT_LT((inverseSpd(spd) * spd - TangentMatrix::Identity()).norm(), 1e-7);
-  EXPECT_EQ(inverseRoot(-spd), TangentMatrix::Zero());
+  EXPECT_EQ(inverseRoot(negative), TangentMatrix::Zero());
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ std::int64_t allocationsOf(Estimator& estimator) {
     const double t = sensors.truth().t_s;
     if (t > 2 && t < 2.05) f.imu_count = 800;
     if (f.imu_count % 97 == 0) f.gyro_WB_B.x() += 1;
+    if (t > 3 && t < 3.2) f.joint_angle.head<3>().array() += 4 * (t - 3);  // a spin
     if (t > 4 && t < 4.2) f.joint_angle.head<2>().array() += 2 * (t - 4);
     f.pose_count = f.imu_count / 4;
     f.pose_time = f.time - SimDuration{20'000'000};
@@ -41,6 +42,10 @@ TEST(EstimatorMemory, UpdateAndEstimateAllocateNothing) {
   EXPECT_EQ(allocationsOf(filter), 0);
   EXPECT_GT(filter.rejections()[Rejection::kStateDoubted], 0);
   EXPECT_GT(filter.rejections()[Rejection::kImuMissing], 0);
+  settings.initial_tilt_error << 0.17, 0;  // two wheels that slip alike are a spin and one wheel
+  SpinTwoStateFilter spin_filter(estimatorTestRobot(), settings);
+  EXPECT_EQ(allocationsOf(spin_filter), 0);
+  EXPECT_GT(spin_filter.rejections()[Rejection::kStateDoubted], 0);
   ComplementaryObserver observer(estimatorTestRobot(), {});
   EXPECT_EQ(allocationsOf(observer), 0);
 }

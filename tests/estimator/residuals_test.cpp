@@ -11,6 +11,8 @@
 namespace ballbot::test {
 namespace {
 
+using SpinTangent = BasicTangentVector<kSpinTangentDim>;
+
 /// Two states and a measurement with nothing special about them. The state's velocities are those
 /// at which the residuals are differentiated, so that derivatives are exact.
 struct Case {
@@ -32,13 +34,15 @@ Case randomCase(std::uint64_t seed) {
   c.a.w_WB_B = draw(0.5);
   c.a.accel_bias = draw(0.05);
   c.a.gyro_bias = draw(0.01);
-  TangentVector step;
+  c.a.spin = draw(1.0).x();
+  SpinTangent step;
   step.segment<2>(0) = draw(1e-2).head<2>();
   step.segment<3>(2) = draw(5e-2);
   step.segment<2>(5) = draw(1e-2).head<2>();
   step.segment<3>(7) = draw(0.1);
   step.segment<3>(10) = draw(0.01);
   step.segment<3>(13) = draw(0.01);
+  step[kTanSpin] = draw(0.1).x();
   c.b = c.a.plus(step);
   c.m.h = 2.5e-3;
   c.m.has_accel = c.m.has_gyro = true;
@@ -48,6 +52,9 @@ Case randomCase(std::uint64_t seed) {
   c.m.wheel_increment = draw(0.01);
   c.m.smooth_v_old_W = c.a.v_WK_W;
   c.m.smooth_v_new_W = c.b.v_WK_W;
+  c.m.spin_kept = 0.9;
+  c.m.spin_sigma = 0.05;
+  c.m.smooth_spin = c.b.spin;
   return c;
 }
 
@@ -60,11 +67,12 @@ ResidualVector residuals(const ResidualModel& model, const FilterState& a, const
 
 /// Largest entry of `analytic` - central differences, row by row relative to the row's largest.
 double jacobianError(const ResidualJacobian& analytic,
-                     const std::function<ResidualVector(const TangentVector&)>& f) {
+                     const std::function<ResidualVector(const SpinTangent&)>& f) {
   const double d = 1e-6;
   ResidualJacobian numeric;
-  for (int i = 0; i < kTangentDim; ++i) {
-    numeric.col(i) = (f(d * TangentVector::Unit(i)) - f(-d * TangentVector::Unit(i))) / (2 * d);
+  for (int i = 0; i < kSpinTangentDim; ++i) {
+    const SpinTangent step = d * SpinTangent::Unit(i), back = -step;
+    numeric.col(i) = (f(step) - f(back)) / (2 * d);
   }
   const ResidualVector scale = analytic.rowwise().lpNorm<Eigen::Infinity>();
   return ((analytic - numeric).array().colwise() / scale.array().max(1e-12)).abs().maxCoeff();
@@ -78,16 +86,16 @@ TEST(Residuals, DerivativesAgreeWithCentralDifferences) {
     c.m.has_gyro = seed % 4 != 2;
     Residuals r;
     model.evaluate(c.a, c.b, c.m, r);
-    EXPECT_LT(jacobianError(
-                  r.d_new,
-                  [&](const TangentVector& d) { return residuals(model, c.a, c.b.plus(d), c.m); }),
-              1e-6)
+    EXPECT_LT(
+        jacobianError(
+            r.d_new, [&](const SpinTangent& d) { return residuals(model, c.a, c.b.plus(d), c.m); }),
+        1e-6)
         << seed;
     // Not every residual knows the old state: rows of zeros are compared as they are.
     ResidualJacobian d_old = r.d_old;
     EXPECT_LT(
         jacobianError(
-            d_old, [&](const TangentVector& d) { return residuals(model, c.a.plus(d), c.b, c.m); }),
+            d_old, [&](const SpinTangent& d) { return residuals(model, c.a.plus(d), c.b, c.m); }),
         1e-6)
         << seed;
   }
@@ -138,10 +146,11 @@ TEST(Residuals, YawIsFreeInTheLinearisationToo) {
   Case c = randomCase(5);
   c.m.smooth_v_old_W << 0.2, -0.1;
   c.m.smooth_v_new_W << 0.21, -0.13;
+  c.m.smooth_spin = 1.7;
   Residuals r;
   model.evaluate(c.a, c.b, c.m, r);
   const auto yaw_direction = [](const FilterState& x, const Eigen::Vector2d& v) {
-    TangentVector d = TangentVector::Zero();
+    SpinTangent d = SpinTangent::Zero();
     d.segment<3>(kTanAttitude) = x.R_WB.transpose() * Vector3::UnitZ();
     d.segment<2>(kTanVelocity) << -v.y(), v.x();
     return d;
@@ -181,6 +190,42 @@ TEST(Residuals, VanishOnARealMotion) {
   // What is left is the lever arm's half interval of lag and the integration rules, in standard
   // deviations of the noise.
   EXPECT_LT(largest, 0.06);
+}
+
+TEST(Residuals, TellASpinOfTheBallFromATurnOfTheBase) {
+  // Base and ball turning alike leave the wheels where they are; the gyroscope notices.
+  const ResidualModel model(estimatorTestRobot(), FilterNoise{});
+  Case c = randomCase(8);
+  c.a.R_WB = c.b.R_WB = expSO3(Vector3(0.1, -0.2, 0.4));
+  const ResidualVector before = residuals(model, c.a, c.b, c.m);
+  c.b.spin += 0.7;
+  c.b.w_WB_B += c.b.R_WB.transpose() * Vector3(0, 0, 0.7);
+  const ResidualVector after = residuals(model, c.a, c.b, c.m);
+  EXPECT_LT((after - before).segment<3>(kRowWheels).norm(), 1e-12 * before.norm());
+  EXPECT_GT((after - before).segment<3>(kRowGyro).norm(), 100);
+  EXPECT_NEAR((after - before)[kRowSpin], 0.7 / 0.05, 1e-9);
+}
+
+TEST(Residuals, VanishForABallThatSpins) {
+  const RobotParameters robot = estimatorTestRobot();
+  const ResidualModel model(robot, FilterNoise{});
+  MotionScript script = livelyMotion();
+  script.spins = {{1, 10, 2, 0}};
+  SimulatedSensors sensors(script, robot, noNoise(), 1);
+  while (sensors.truth().t_s < 5) sensors.advance();
+  const FilterState a = truthAsFilterState(sensors.truth());
+  const Vector3 wheels = sensors.frame().joint_angle.head<3>();
+  sensors.advance();
+  const FilterState b = truthAsFilterState(sensors.truth());
+  IntervalMeasurement m;
+  m.h = 2.5e-3;
+  m.has_wheel.fill(true);
+  m.wheel_increment = sensors.frame().joint_angle.head<3>() - wheels;
+  EXPECT_EQ(b.spin, 2);
+  EXPECT_LT((residuals(model, a, b, m).segment<3>(kRowWheels).norm()), 1e-3);
+  FilterState still = b;
+  still.spin = 0;
+  EXPECT_GT((residuals(model, a, still, m).segment<3>(kRowWheels).norm()), 20);
 }
 
 TEST(Residuals, PredictLandsOnTheMotion) {

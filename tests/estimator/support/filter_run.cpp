@@ -12,6 +12,7 @@ FilterState truthAsFilterState(const Truth& truth) {
   x.w_WB_B = truth.mean_w_WB_B;
   x.accel_bias = truth.accel_bias;
   x.gyro_bias = truth.gyro_bias;
+  x.spin = truth.mean_spin;
   return x;
 }
 
@@ -21,13 +22,14 @@ TwoStateSettings matchedSettings() {
   return s;
 }
 
-RunErrors play(const FilterRun& run, RejectionCounts* counts) {
+template <int kDim>
+RunErrors play(const BasicFilterRun<kDim>& run, RejectionCounts* counts) {
   const RobotParameters robot = estimatorTestRobot();
   SimulatedSensors sensors(run.script, robot, run.noise, run.seed);
   // The motion is drawn: no drive and no gravity makes it, so its way of falling tells nothing.
   TwoStateSettings settings = run.settings;
   settings.balance.enabled = false;
-  TwoStateFilter filter(run.believed, settings);
+  BasicTwoStateFilter<kDim> filter(run.believed, settings);
   RunErrors e;
   double tilt2 = 0, velocity2 = 0;
   int samples = 0;
@@ -41,18 +43,18 @@ RunErrors play(const FilterRun& run, RejectionCounts* counts) {
     if (sensors.atRest() || truth.t_s <= run.from) continue;
     const FilterState& x = filter.state();
     const FilterState x_true = truthAsFilterState(truth);
-    const TangentVector error = x_true.minus(x);
+    const BasicTangentVector<kDim> error = x_true.minus<kDim>(x);
     // The angle between the two verticals.
     const double tilt =
         ((x.R_WB.transpose() - x_true.R_WB.transpose()) * Vector3::UnitZ()).norm() / kRadPerDeg;
-    const double velocity = error.segment<2>(kTanVelocity).norm();
+    const double velocity = error.template segment<2>(kTanVelocity).norm();
     tilt2 += tilt * tilt;
     velocity2 += velocity * velocity;
     e.tilt_max_deg = std::max(e.tilt_max_deg, tilt);
     e.velocity_max = std::max(e.velocity_max, velocity);
     e.nees_mean += error.dot(filter.information() * error);
     e.nis_mean += filter.nis();
-    e.position_end = error.segment<2>(kTanPosition).norm();
+    e.position_end = error.template segment<2>(kTanPosition).norm();
     e.yaw_end_deg =
         std::abs(filter.estimate(frame.time).x[kYaw] - truth.motion.yaw_pitch_roll[0]) / kRadPerDeg;
     ++samples;
@@ -65,5 +67,8 @@ RunErrors play(const FilterRun& run, RejectionCounts* counts) {
   if (counts != nullptr) *counts = filter.rejections();
   return e;
 }
+
+template RunErrors play(const FilterRun&, RejectionCounts*);
+template RunErrors play(const SpinFilterRun&, RejectionCounts*);
 
 }  // namespace ballbot::test

@@ -20,11 +20,13 @@ struct RunErrors {
   double position_end = 0;                    ///< [m]
   double yaw_end_deg = 0;
   double distance = 0;   ///< covered by the ball [m]
-  double nees_mean = 0;  ///< all 16, expected 16
+  double nees_mean = 0;  ///< of the whole state, expected its dimension
   double nis_mean = 0;   ///< expected 4 while all wheels and the IMU are used
 };
 
-struct FilterRun {
+/// @tparam kDim  kTangentDim for a filter that takes the ball's spin for zero
+template <int kDim>
+struct BasicFilterRun {
   double seconds = 20;
   MotionScript script = livelyMotion();
   SensorNoise noise = quantisedNoise();
@@ -37,10 +39,13 @@ struct FilterRun {
   /// Spoils a frame before the filter sees it.
   std::function<void(SensorFrame&, const Truth&)> disturb;
   /// Sees filter and truth after every interval from `from` on.
-  std::function<void(const TwoStateFilter&, const Truth&)> observe;
+  std::function<void(const BasicTwoStateFilter<kDim>&, const Truth&)> observe;
 };
+using FilterRun = BasicFilterRun<kTangentDim>;
+using SpinFilterRun = BasicFilterRun<kSpinTangentDim>;
 
 /// @param counts where not null: what the filter rejected
-RunErrors play(const FilterRun& run, RejectionCounts* counts = nullptr);
+template <int kDim>
+RunErrors play(const BasicFilterRun<kDim>& run, RejectionCounts* counts = nullptr);
 
 }  // namespace ballbot::test

@@ -58,6 +58,7 @@ void SimulatedSensors::advance() {
   truth_.t_s = to;
   truth_.motion = sampleMotion(script_, robot_, to);
   truth_.mean_w_WB_B = mean.w_WB_B;
+  truth_.mean_spin = mean.spin;
   truth_.gyro_bias += noise_.gyro_bias_walk * std::sqrt(h) * normals(gyro_bias_, tick_);
   truth_.accel_bias += noise_.accel_bias_walk * std::sqrt(h) * normals(accel_bias_, tick_);
 

@@ -34,6 +34,7 @@ struct Truth {
   double t_s = 0;
   MotionSample motion;
   Vector3 mean_w_WB_B = Vector3::Zero();  ///< over the interval [rad/s]
+  double mean_spin = 0;                   ///< of the ball, over the interval [rad/s]
   Vector3 accel_bias = Vector3::Zero();   ///< [m/s^2]
   Vector3 gyro_bias = Vector3::Zero();    ///< [rad/s]
 };

@@ -1,5 +1,6 @@
 #include "tests/estimator/support/smooth_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -42,6 +43,18 @@ Jet sum(const std::vector<Harmonic>& harmonics, double t) {
   return out;
 }
 
+double spinOf(const std::vector<SpinPulse>& pulses, double t_s) {
+  double spin = 0;
+  for (const SpinPulse& p : pulses) {
+    const auto risen = [&](double since) {
+      return p.ramp_s > 0 ? std::clamp((t_s - since) / p.ramp_s, 0.0, 1.0)
+                          : (t_s > since ? 1.0 : 0.0);
+    };
+    spin += p.rate * (risen(p.from_s) - risen(p.to_s));
+  }
+  return spin;
+}
+
 }  // namespace
 
 MotionSample sampleMotion(const MotionScript& script, const RobotParameters& robot, double t_s) {
@@ -74,7 +87,9 @@ MotionSample sampleMotion(const MotionScript& script, const RobotParameters& rob
                          dw.cross(robot.p_BI_B) + out.w_WB_B.cross(out.w_WB_B.cross(robot.p_BI_B));
 
   // Written out from the contact geometry, not through OmniwheelKinematics.
-  const Vector3 kappa_B = out.R_WB.transpose() * Vector3(-y.d, x.d, 0) / robot.ball.radius;
+  out.spin = spinOf(script.spins, t_s);
+  const Vector3 kappa_B =
+      out.R_WB.transpose() * Vector3(-y.d / robot.ball.radius, x.d / robot.ball.radius, out.spin);
   for (int i = 0; i < kWheelCount; ++i) {
     out.wheel_rates[i] =
         -robot.ball.radius / robot.wheels.radius * robot.wheelAxle(i).dot(kappa_B - out.w_WB_B);
@@ -93,6 +108,7 @@ MotionMeans averageMotion(const MotionScript& script, const RobotParameters& rob
     const MotionSample s = sampleMotion(script, robot, middle + node * half);
     mean.specific_force_B += weight * s.specific_force_B;
     mean.w_WB_B += weight * s.w_WB_B;
+    mean.spin += weight * s.spin;
     mean.wheel_rates += weight * s.wheel_rates;
   };
   add(0.0, kWeight[0]);

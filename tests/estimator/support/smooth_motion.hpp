@@ -16,6 +16,13 @@ struct Harmonic {
   double phase = 0;  ///< [rad]
 };
 
+/// The ball spins about the vertical at `rate`, which it takes `ramp_s` to reach and to lose.
+struct SpinPulse {
+  double from_s = 0, to_s = 0;  ///< begin of the one ramp and of the other
+  double rate = 0;              ///< [rad/s]
+  double ramp_s = 0;
+};
+
 /// Closed-form motion of ball and base: harmonics of ball position, yaw, pitch and roll, faded in
 /// with three continuous derivatives after `rest_s` of standing still at px = py = yaw = 0.
 struct MotionScript {
@@ -24,6 +31,7 @@ struct MotionScript {
   Vector3 rest_yaw_pitch_roll = Vector3::Zero();  ///< attitude held all the time; motion adds to it
   /// For px, py [m], yaw, pitch, roll [rad].
   std::array<std::vector<Harmonic>, 5> harmonics;
+  std::vector<SpinPulse> spins;
 };
 
 /// Everything rigid-body kinematics says about one instant.
@@ -34,7 +42,8 @@ struct MotionSample {
   Matrix3 R_WB = Matrix3::Identity();
   Vector3 w_WB_B = Vector3::Zero();            ///< [rad/s]
   Vector3 specific_force_B = Vector3::Zero();  ///< at the IMU [m/s^2]
-  Vector3 wheel_rates = Vector3::Zero();       ///< rolling without slip and without spin [rad/s]
+  double spin = 0;                             ///< of the ball about the vertical [rad/s]
+  Vector3 wheel_rates = Vector3::Zero();       ///< rolling without slip [rad/s]
 };
 
 MotionSample sampleMotion(const MotionScript& script, const RobotParameters& robot, double t_s);
@@ -43,6 +52,7 @@ MotionSample sampleMotion(const MotionScript& script, const RobotParameters& rob
 struct MotionMeans {
   Vector3 specific_force_B = Vector3::Zero();
   Vector3 w_WB_B = Vector3::Zero();
+  double spin = 0;
   Vector3 wheel_rates = Vector3::Zero();
 };
 MotionMeans averageMotion(const MotionScript& script, const RobotParameters& robot, double from_s,
