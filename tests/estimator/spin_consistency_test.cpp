@@ -40,9 +40,10 @@ struct Ratios {
   }
 };
 
-/// Over `runs` seeds of 15 s of lively motion: while the ball does not spin and while it does.
+/// Over `runs` seeds of 15 s of lively motion: while the floor holds the ball, while it comes to
+/// spin or to rest, and while it spins alike.
 struct Phases {
-  Ratios sticking, spinning;
+  Ratios sticking, changing, spinning;
   std::int64_t rejected = 0;
 };
 
@@ -57,16 +58,24 @@ Phases monteCarlo(int runs, const Spins& spinsOf,
     run.noise = whiteNoise();
     run.settings = settings;
     run.script.spins = spinsOf(run.seed);
+    double before = 0;
     run.observe = [&](const SpinTwoStateFilter& filter, const Truth& truth) {
+      const bool alike = std::abs(truth.mean_spin - before) < 1e-12;
+      before = truth.mean_spin;
       if (truth.t_s < 1.5) return;
-      (std::abs(truth.mean_spin) < 0.025 ? phases.sticking : phases.spinning).add(filter, truth);
+      Ratios& phase = std::abs(truth.mean_spin) < 0.025 ? phases.sticking
+                      : alike                           ? phases.spinning
+                                                        : phases.changing;
+      phase.add(filter, truth);
     };
     RejectionCounts counts;
     play(run, &counts);
     phases.rejected += counts.total();
   }
-  for (const auto& [name, r] :
-       {std::pair("sticking", phases.sticking), {"spinning", phases.spinning}}) {
+  for (const auto& [name, r] : {std::pair("sticking", phases.sticking),
+                                {"changing", phases.changing},
+                                {"spinning", phases.spinning}}) {
+    if (r.samples == 0) continue;
     std::printf("%s: nees %.2f, yaw and bias %.2f, spin %.2f, nis %.3f, bias sigma %.2e, n %d\n",
                 name, r.nees * kSpinTangentDim, r.bias_yaw, r.spin, r.nis * 4, r.bias_sigma,
                 r.samples);
@@ -130,6 +139,8 @@ TEST(SpinConsistency, HoldsThroughSpellsOfSpinning) {
   const Phases p = monteCarlo(30, spells);
   expectTrue(p.sticking);
   expectTrue(p.spinning);
+  EXPECT_GT(p.spinning.spin, 0.5);
+  EXPECT_LT(p.spinning.spin, 1.5);
   // Cautious: a spin is expected to change by 0.1 rad/s in every interval, and mostly does not.
   EXPECT_GT(4 * p.spinning.nis, 3);
   EXPECT_LT(4 * p.spinning.nis, 4.1);
@@ -139,6 +150,8 @@ TEST(SpinConsistency, HoldsThroughSpellsOfSpinning) {
 TEST(SpinConsistency, FailsForAFilterThatTakesASpinForSteady) {
   TwoStateSettings settings = matchedSettings();
   settings.spin.acceleration = 1;
+  settings.spin.jump_sigma = settings.gate.wheel_gate_sigma = settings.gate.wheel_slip_sigma = 1e6;
+  settings.gate.chi_square_limit = 1e9;
   EXPECT_GT(monteCarlo(5, spells, settings).spinning.nees, 1.5);
 }
 
