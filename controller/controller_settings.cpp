@@ -69,7 +69,7 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
   out.tracker = TrackerConfig::read(tracker, robot);
   double floor = kUnlimited;
   describeFloor(reading, floor);
-  if (floor < kUnlimited) out.tracker.spin_torque_limit = kShareOfFloor * floor;
+  if (floor < kUnlimited) out.spin_torque_limit = kShareOfFloor * floor;
   tracker.finish();
   forEachSection([&](const LawSection& section) { in.raw(section.key.name); });
   in.finish();

@@ -20,6 +20,9 @@ class ConfigVisitor;
 struct ControllerSettings {
   RobotParameters believed_robot;  ///< with the payload that estimator and law count on
   TrackerConfig tracker;
+  /// Of the wheels on the ball about the vertical: the last word on what is sent to the drives
+  /// [N m].
+  double spin_torque_limit = kUnlimited;
   std::shared_ptr<const LawSettings> law;
 
   /// Sections of other laws than the chosen one are passed over, so that one file can hold several

@@ -12,7 +12,11 @@ DiscreteEngine<NU>::DiscreteEngine(const RobotParameters& robot, const Constrain
                                    const SlqOptions& options)
     : schedule_(std::move(schedule)),
       problem_(robot, constraints, shaping, terminal, knots),
-      solver_(knots, options) {}
+      solver_(knots, options) {
+  if (constraints.spin_torque_limit < kUnlimited) {
+    floor_limited_ = std::make_unique<FloorLimitedProblem<NU>>(robot, constraints, knots, problem_);
+  }
+}
 
 template <int NU>
 MpcPolicy DiscreteEngine<NU>::emptyPolicy() const {
@@ -32,8 +36,10 @@ MpcSolveReport DiscreteEngine<NU>::solve(SimTime now, const MpcState& x0, const 
                                          int iterations, MpcPolicy& out) noexcept {
   problem_.setTasks(*schedule_, toSeconds(now), contact_, commands_);
   const double age = toSeconds(now - guess.stamp());
+  const typename WholeBodyProblem<NU>::Base* problem = &problem_;
+  if (floor_limited_) problem = floor_limited_.get();
   const MpcSolveReport report =
-      solver_.solve(problem_, x0, PolicyGuess<NU>(guess), age, iterations);
+      solver_.solve(*problem, x0, PolicyGuess<NU>(guess), age, iterations);
   if (report.ok()) setPolicy(solver_.solution(), now, out);
   return report;
 }

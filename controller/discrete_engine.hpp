@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "controller/floor_limited_problem.hpp"
 #include "controller/mpc_engine.hpp"
 #include "controller/whole_body_problem.hpp"
 #include "solver/real_time_iteration.hpp"
@@ -29,6 +30,7 @@ class DiscreteEngine final : public MpcEngine {
  private:
   std::shared_ptr<const TaskSchedule> schedule_;
   WholeBodyProblem<NU> problem_;
+  std::unique_ptr<FloorLimitedProblem<NU>> floor_limited_;  ///< null where the floor holds all
   RealTimeIteration<kMpcStateDim, NU, CostTerms> solver_;
 };
 

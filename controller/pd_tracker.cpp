@@ -69,16 +69,6 @@ TrackerConfig TrackerConfig::read(ConfigReader& in, const RobotParameters& robot
   return c;
 }
 
-JointVector PdTracker::withinLimits(const JointVector& wanted,
-                                    const StateVector& x) const noexcept {
-  JointVector torque = wanted;
-  if (config_.spin_torque_limit < kUnlimited) {
-    torque.head<kWheelCount>() =
-        spin_torque_.within(config_.spin_torque_limit, x, wanted.head<kWheelCount>());
-  }
-  return torque.cwiseMax(-config_.torque_limit).cwiseMin(config_.torque_limit);
-}
-
 TrackStatus PdTracker::step(const PolicySample& policy, const StateVector& x,
                             const JointVector& joint_angle, const JointVector& joint_velocity,
                             ActuatorCommand& command) const noexcept {
@@ -93,10 +83,10 @@ TrackStatus PdTracker::step(const PolicySample& policy, const StateVector& x,
   const JointVector& limit = config_.torque_limit;
   if (config_.pd_loop == TrackerConfig::PdLoop::kController) {
     command = ActuatorCommand{};
-    command.torque = withinLimits(wanted, x);
+    command.torque = wanted.cwiseMax(-limit).cwiseMin(limit);
   } else {
     // The drives cut the sum; what is sent is cut too, so that a limit below theirs still holds.
-    command.torque = withinLimits(policy_torque, x);
+    command.torque = policy_torque.cwiseMax(-limit).cwiseMin(limit);
     command.position = policy.joint_position;
     command.velocity = policy.joint_velocity;
     command.stiffness = config_.stiffness;

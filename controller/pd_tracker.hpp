@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "controller/control_law.hpp"
-#include "controller/spin_torque.hpp"
 #include "model/robot_parameters.hpp"
 #include "model/signals.hpp"
 
@@ -24,8 +23,6 @@ struct TrackerConfig {
   JointVector torque_limit = JointVector::Zero();  ///< of the command [N m]
   /// What the drives give, and so the most that `torque_limit` may be [N m].
   JointVector drive_torque = JointVector::Constant(std::numeric_limits<double>::infinity());
-  /// Of the wheels on the ball about the vertical, the last word on it [N m].
-  double spin_torque_limit = kUnlimited;
   double policy_feedback = 1;  ///< share of the policy's K (x - x_ref) used
 
   /// What a file that says nothing means: some stiffness, and the drives' whole torque.
@@ -41,8 +38,7 @@ enum class TrackStatus { kOk, kTorqueSaturated, kNotFinite };
 /// (Minniti et al. 2019, section IV). May run in the control step.
 class PdTracker {
  public:
-  PdTracker(const TrackerConfig& config, const RobotParameters& robot)
-      : config_(config), spin_torque_(robot) {}
+  explicit PdTracker(const TrackerConfig& config) : config_(config) {}
 
   /// One control tick. On kNotFinite `command` keeps what it held: the last good command.
   /// @param x            estimated state at this tick
@@ -53,11 +49,7 @@ class PdTracker {
                                  ActuatorCommand& command) const noexcept;
 
  private:
-  /// Cut to what drives and floor can take, balance before yaw.
-  JointVector withinLimits(const JointVector& wanted, const StateVector& x) const noexcept;
-
   TrackerConfig config_;
-  SpinTorque spin_torque_;
 };
 
 }  // namespace ballbot

@@ -26,6 +26,11 @@ Vector3 SpinTorque::within(double limit, const StateVector& x, const Vector3& ta
   return tau - (torque - std::clamp(torque, -limit, limit)) / c.squaredNorm() * c;
 }
 
+void SpinTorque::cut(double limit, const StateVector& x, JointVector& torque) const noexcept {
+  if (limit >= kUnlimited) return;
+  torque.head<kWheelCount>() = within(limit, x, torque.head<kWheelCount>());
+}
+
 double spinTorqueCost(const SpinTorque& spin, const Constraints& limits, const StateVector& x,
                       const Vector3& tau, double share, double& violation) noexcept {
   const double limit = limits.spin_torque_limit, torque = spin.at(x).c.dot(tau);

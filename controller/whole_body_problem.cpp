@@ -45,7 +45,6 @@ WholeBodyProblem<NU>::WholeBodyProblem(const RobotParameters& robot, const Const
                                        const std::vector<double>& knots)
     : dynamics_(robot),
       cost_(robot, constraints, terminal),
-      spin_torque_(robot),
       state_share_(knots.size(), 0.0),
       tasks_(knots.size()) {
   for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
@@ -168,11 +167,6 @@ void WholeBodyProblem<NU>::addCost(int k, const X& x, const U& u, CostTerms& ter
     terms.value[kWheelTorqueCost] +=
         0.5 * tasks.wheel_torque_weight * filter.cost(x[kStateDim + i], u[i]);
   }
-  if (floorLimited()) {
-    terms.value[kTorqueLimitCost] +=
-        spinTorqueCost(spin_torque_, cost_.constraints(), x.template head<kStateDim>(),
-                       u.template head<kWheelCount>(), filter.H, terms.violation);
-  }
 }
 
 template <int NU>
@@ -212,12 +206,6 @@ void WholeBodyProblem<NU>::approximateCost(int k, const X& x, const U& u,
     terms.value[kWheelTorqueCost] += 0.5 * w * f.cost(x[at], u[i]);
     expandShapedCost(f, w, at, i, x[at], u[i], lq);
   }
-  if (!floorLimited()) return;
-  const StateVector robot = x.template head<kStateDim>();
-  const Vector3 tau = u.template head<kWheelCount>();
-  terms.value[kTorqueLimitCost] +=
-      spinTorqueCost(spin_torque_, cost_.constraints(), robot, tau, f.H, terms.violation);
-  expandSpinTorqueCost<NU>(spin_torque_, cost_.constraints(), robot, tau, f.H, lq);
 }
 
 template <int NU>

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "controller/spin_torque.hpp"
 #include "controller/whole_body_cost.hpp"
 #include "solver/frequency_shaping.hpp"
 #include "solver/optimal_control_problem.hpp"
@@ -56,11 +55,9 @@ class WholeBodyProblem final : public OptimalControlProblem<kMpcStateDim, NU, Co
   void approximateCost(int k, const X& x, const U& u,
                        const ReducedDynamics::EndEffectorLinearization& tip, CostTerms& terms,
                        Stage& lq) const noexcept;
-  bool floorLimited() const noexcept { return cost_.constraints().spin_torque_limit < kUnlimited; }
 
   ReducedDynamics dynamics_;
   WholeBodyCost cost_;
-  SpinTorque spin_torque_;
   std::vector<FilterStep> steps_;    ///< one per stage; H is the stage's length
   std::vector<double> state_share_;  ///< trapezoidal weight of each knot's state cost [s]
   std::vector<Tasks> tasks_;         ///< one per knot

@@ -22,7 +22,9 @@ RobotController::RobotController(const RunConfig& config, EventCalendar& calenda
       plan_latency_(config.scenario.rates.plan_latency),
       sensing_(config),
       law_(config.controller.makeLaw()),
-      tracker_(std::make_unique<PdTracker>(config.controller.tracker, config.believedRobot())) {
+      tracker_(std::make_unique<PdTracker>(config.controller.tracker)),
+      spin_torque_(config.believedRobot()),
+      spin_torque_limit_(config.controller.spin_torque_limit) {
   added_to_plan_.list = config.controller.law->addedToPlan();
   added_to_plan_.values.assign(added_to_plan_.list.size(), 0.0);
   const Rates& rates = config.scenario.rates;
@@ -115,6 +117,7 @@ void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutp
       ++state_.ticks_not_finite;
       break;
   }
+  spin_torque_.cut(spin_torque_limit_, x, out.command.torque);
   if (now >= release_) {
     ++state_.ticks_released;
     if (policy.from_stand_in) ++state_.ticks_on_fallback;

@@ -8,6 +8,7 @@
 
 #include "controller/control_law.hpp"
 #include "controller/pd_tracker.hpp"
+#include "controller/spin_torque.hpp"
 #include "cosim/schedule.hpp"
 #include "cosim/stepped_controller.hpp"
 #include "experiment/robot_sensing.hpp"
@@ -82,6 +83,8 @@ class RobotController final : public SteppedController {
   RobotSensing sensing_;
   std::unique_ptr<ControlLaw> law_;
   std::unique_ptr<PdTracker> tracker_;
+  SpinTorque spin_torque_;
+  double spin_torque_limit_;  ///< [N m]
   TaskId tracker_task_, estimator_task_, planner_task_;
 
   AddedSignals added_to_plan_;

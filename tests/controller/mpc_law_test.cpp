@@ -286,7 +286,7 @@ TEST_F(MpcLawTest, NoCallOfTheControlStepAllocates) {
   const StateVector x = atRest();
   const JointVector joints = jointsAtRest();
   PolicySample sample;
-  const PdTracker pd(tracker(), robot_);
+  const PdTracker pd(tracker());
   ActuatorCommand command;
   const auto before = allocationCount();
   bool accepted = true;

@@ -36,7 +36,7 @@ class PdTrackerTest : public testing::Test {
 };
 
 TEST_F(PdTrackerTest, AddsFeedforwardStateFeedbackAndJointPd) {
-  ASSERT_EQ(PdTracker(config_, robot_).step(policy_, x_, angle_, velocity_, command_), TrackStatus::kOk);
+  ASSERT_EQ(PdTracker(config_).step(policy_, x_, angle_, velocity_, command_), TrackStatus::kOk);
   for (int i = 0; i < kJointCount; ++i) {
     const double expected = policy_.torque[i] + policy_.feedback.row(i).dot(x_ - policy_.x) +
                             config_.stiffness[i] * (0.2 - angle_[i]) +
@@ -48,9 +48,9 @@ TEST_F(PdTrackerTest, AddsFeedforwardStateFeedbackAndJointPd) {
 
 TEST_F(PdTrackerTest, WithTheLoopInTheDrivesBothWaysGiveTheSameTorque) {
   ActuatorCommand to_drives;
-  ASSERT_EQ(PdTracker(config_, robot_).step(policy_, x_, angle_, velocity_, command_), TrackStatus::kOk);
+  ASSERT_EQ(PdTracker(config_).step(policy_, x_, angle_, velocity_, command_), TrackStatus::kOk);
   config_.pd_loop = TrackerConfig::PdLoop::kDrives;
-  ASSERT_EQ(PdTracker(config_, robot_).step(policy_, x_, angle_, velocity_, to_drives), TrackStatus::kOk);
+  ASSERT_EQ(PdTracker(config_).step(policy_, x_, angle_, velocity_, to_drives), TrackStatus::kOk);
   const JointVector applied =  // what ActuatorCommand says a drive does
       to_drives.torque + to_drives.stiffness.cwiseProduct(to_drives.position - angle_) +
       to_drives.damping.cwiseProduct(to_drives.velocity - velocity_);
@@ -61,21 +61,21 @@ TEST_F(PdTrackerTest, TakesOnlyTheShareOfFeedbackItIsTold) {
   config_.policy_feedback = 0;
   config_.stiffness.setZero();
   config_.damping.setZero();
-  ASSERT_EQ(PdTracker(config_, robot_).step(policy_, x_, angle_, velocity_, command_), TrackStatus::kOk);
+  ASSERT_EQ(PdTracker(config_).step(policy_, x_, angle_, velocity_, command_), TrackStatus::kOk);
   EXPECT_EQ(command_.torque, policy_.torque);
 }
 
 TEST_F(PdTrackerTest, CutsAtTheTorqueLimitAndSaysSo) {
   policy_.torque[1] = 100;
   policy_.torque[5] = -100;
-  EXPECT_EQ(PdTracker(config_, robot_).step(policy_, x_, angle_, velocity_, command_),
+  EXPECT_EQ(PdTracker(config_).step(policy_, x_, angle_, velocity_, command_),
             TrackStatus::kTorqueSaturated);
   EXPECT_EQ(command_.torque[1], 4);
   EXPECT_EQ(command_.torque[5], -18);
 }
 
 TEST_F(PdTrackerTest, KeepsTheLastGoodCommandWhenAnythingIsNotFinite) {
-  const PdTracker tracker(config_, robot_);
+  const PdTracker tracker(config_);
   ASSERT_EQ(tracker.step(policy_, x_, angle_, velocity_, command_), TrackStatus::kOk);
   const JointVector good = command_.torque;
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -92,7 +92,7 @@ TEST_F(PdTrackerTest, KeepsTheLastGoodCommandWhenAnythingIsNotFinite) {
 
 TEST_F(PdTrackerTest, DoesNotAllocate) {
   if (!allocationsAreCounted()) GTEST_SKIP() << "a sanitizer owns malloc";
-  const PdTracker tracker(config_, robot_);
+  const PdTracker tracker(config_);
   const auto before = allocationCount();
   for (int i = 0; i < 100; ++i) {
     if (tracker.step(policy_, x_, angle_, velocity_, command_) != TrackStatus::kOk) break;

@@ -25,7 +25,7 @@ StateVector measured(const StateVector& x, double noise, std::uint64_t index) {
 std::vector<ClosedLoopSample> runClosedLoop(ControlLaw& law, const TrackerConfig& tracker_config,
                                             const RobotParameters& robot, const StateVector& x0,
                                             double duration_s, const ClosedLoopOptions& options) {
-  const PdTracker tracker(tracker_config, robot);
+  const PdTracker tracker(tracker_config);
   const ReducedDynamics dynamics(robot);
   LaggedPlant plant(robot, options.lag, x0);
   ActuatorCommand command;

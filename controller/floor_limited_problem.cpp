@@ -1,0 +1,41 @@
+#include "controller/floor_limited_problem.hpp"
+
+namespace ballbot {
+
+template <int NU>
+FloorLimitedProblem<NU>::FloorLimitedProblem(const RobotParameters& robot,
+                                             const Constraints& constraints,
+                                             const std::vector<double>& knots,
+                                             const WholeBodyProblem<NU>& inner)
+    : inner_(inner), constraints_(constraints), spin_torque_(robot) {
+  for (std::size_t k = 0; k + 1 < knots.size(); ++k) steps_.push_back(knots[k + 1] - knots[k]);
+}
+
+template <int NU>
+void FloorLimitedProblem<NU>::addCost(int k, const X& x, const U& u,
+                                      CostTerms& terms) const noexcept {
+  inner_.addCost(k, x, u, terms);
+  terms.value[kTorqueLimitCost] +=
+      spinTorqueCost(spin_torque_, constraints_, x.template head<kStateDim>(),
+                     u.template head<kWheelCount>(), steps_[k], terms.violation);
+}
+
+template <int NU>
+void FloorLimitedProblem<NU>::approximate(int first, int count, const X* x, const U* u,
+                                          CostTerms* terms, Stage* lq) const noexcept {
+  inner_.approximate(first, count, x, u, terms, lq);
+  for (int i = 0; i < count; ++i) {
+    const StateVector robot = x[i].template head<kStateDim>();
+    const Vector3 tau = u[i].template head<kWheelCount>();
+    const double step = steps_[first + i];
+    terms[i].value[kTorqueLimitCost] +=
+        spinTorqueCost(spin_torque_, constraints_, robot, tau, step, terms[i].violation);
+    expandSpinTorqueCost<NU>(spin_torque_, constraints_, robot, tau, step, lq[i]);
+  }
+}
+
+template class FloorLimitedProblem<6>;
+template class FloorLimitedProblem<9>;
+template class FloorLimitedProblem<12>;
+
+}  // namespace ballbot
