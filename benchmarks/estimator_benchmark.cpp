@@ -67,6 +67,15 @@ void estimatorUpdate(benchmark::State& state) {
 }
 BENCHMARK(estimatorUpdate)->Name("estimator_update")->Unit(benchmark::kMicrosecond);
 
+/// The same with the ball's spin as a state.
+void spinEstimatorUpdate(benchmark::State& state) {
+  const RobotParameters robot = benchmarkRobot();
+  SpinTwoStateFilter filter(robot, {});
+  feed(state, filter, robot);
+  state.counters["rejected"] = static_cast<double>(filter.rejections().total());
+}
+BENCHMARK(spinEstimatorUpdate)->Name("spin_estimator_update")->Unit(benchmark::kMicrosecond);
+
 void observerUpdate(benchmark::State& state) {
   const RobotParameters robot = benchmarkRobot();
   ComplementaryObserver observer(robot, {});
