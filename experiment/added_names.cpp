@@ -16,8 +16,9 @@ std::set<std::string> columnsOf(const std::string& table) {
   RunLog log;
   log.sensors.emplace_back();
   log.plans.emplace_back();
+  const std::vector<LogTable> tables = logTables(log);
   std::set<std::string> out;
-  for (const LogTable::Column& column : findTable(logTables(log), table)->columns) {
+  for (const LogTable::Column& column : findTable(tables, table)->columns) {
     out.insert(column.name);
   }
   return out;

@@ -140,6 +140,11 @@ TEST_F(Seams, WhatNobodyAddedIsRefusedByName) {
   EXPECT_THAT(said("plant.added_sensors={thermometer: {}}"), HasSubstr("drive_thermometer"));
   EXPECT_THAT(said("controller.mpc.tasks.leen={weight: 1}"), HasSubstr("'lean'"));
   EXPECT_THAT(said("controller.kind=gentel"), HasSubstr("gentle"));
+  EXPECT_THAT(
+      said("controller.mpc.tasks.frames=[{name: ee, body: base, position: {weight: 1}}]"),
+      HasSubstr("'cost_ee_position' is added to the table 'plan' of a run, which has such"));
+  EXPECT_THAT(said("controller.mpc.tasks.frames=[{name: a b, body: base, position: {weight: 1}}]"),
+              HasSubstr("a name must be of letters"));
   EXPECT_THAT(said("controller.mpc.tasks.frames=[{name: a, body: arm_9, position: {weight: 1}}]"),
               HasSubstr("arm_2"));
   EXPECT_THAT(said("controller.mpc.tasks.frames=[{name: a, body: base, position: {weight: 1}}, "
