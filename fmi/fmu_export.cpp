@@ -9,6 +9,7 @@
 
 #include "core/config_reader.hpp"
 #include "core/error.hpp"
+#include "core/markup_text.hpp"
 #include "fmi/model_description.hpp"
 #include "fmi/plant_contents.hpp"
 #include "fmi/plant_fmu.hpp"
@@ -55,14 +56,6 @@ ConfigNode plantScenario(const ConfigNode& scenario) {
   return out;
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-  }
-  return out;
-}
-
 std::string documentation(const FmuVariables& variables, const ModelFacts& facts) {
   std::string rows;
   for (const FmuVariable& v : variables.all()) {
@@ -71,7 +64,7 @@ std::string documentation(const FmuVariables& variables, const ModelFacts& facts
                        : v.role == VariableRole::kParameter ? "parameter"
                                                             : "";
     rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        v.name, role, v.size, escaped(v.unit), escaped(v.description));
+                        v.name, role, v.size, markupEscaped(v.unit), markupEscaped(v.description));
   }
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>ballbot "
@@ -94,7 +87,7 @@ std::string documentation(const FmuVariables& variables, const ModelFacts& facts
       "<table>\n<tr><th>variable</th><th></th><th>size</th><th>unit</th><th>meaning</th></tr>\n{}</"
       "table>\n"
       "</body></html>\n",
-      escaped(facts.description), facts.version, rows);
+      markupEscaped(facts.description), facts.version, rows);
 }
 
 }  // namespace

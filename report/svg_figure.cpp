@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/markup_text.hpp"
+
 namespace ballbot {
 namespace {
 
@@ -16,26 +18,6 @@ constexpr int kTickCount = 6;
 // Okabe and Ito's colours, told apart by most eyes and in grey.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73",
                                     "#cc79a7", "#e69f00", "#56b4e9"};
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string number(double v) { return fmt::format("{:.2f}", v); }
 
@@ -106,7 +88,7 @@ std::string lineElement(double x1, double y1, double x2, double y2, const std::s
 std::string textElement(double x, double y, const std::string& anchor, const std::string& text,
                         const std::string& more = "") {
   return fmt::format("<text x='{}' y='{}' text-anchor='{}' {}>{}</text>\n", number(x), number(y),
-                     anchor, more, escaped(text));
+                     anchor, more, markupEscaped(text));
 }
 
 std::string path(const SvgSeries& s, const Scale& sx, const Scale& sy) {
@@ -262,7 +244,7 @@ std::string svgFigure(const std::string& title, const std::vector<SvgAxes>& axes
       ".title{{font-size:16px;font-weight:600}}.grid{{stroke:#ccc}}.minor{{stroke:#eee}}"
       ".span{{fill:#fbeed2}}.mark{{stroke:#555;stroke-dasharray:2 3}}</style>\n"
       "<rect width='{0}' height='{1}' fill='#fff'/>\n",
-      number(width), number(height), escaped(title));
+      number(width), number(height), markupEscaped(title));
   if (!title.empty()) out += textElement(kLeft, 25, "start", title, "class='title'");
   for (std::size_t i = 0; i < axes.size(); ++i) {
     out += axesElement(axes[i], top + static_cast<double>(i) * (kPlotHeight + kBelow),

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/markup_text.hpp"
 #include "core/whole_file.hpp"
 #include "report/json_text.hpp"
 #include "report/page_template.hpp"
@@ -12,26 +13,6 @@
 namespace ballbot {
 
 namespace {
-
-std::string htmlEscaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 /// JSON that may stand inside a script element: "</script>" or "<!--" in a text would end it.
 std::string scriptSafe(const nlohmann::ordered_json& json) {
@@ -59,7 +40,7 @@ std::string reportPage(const ReportData& data, const std::string& urdf_text,
   const std::size_t data_at = page.find(kDataMark, after_title);
   const std::size_t after_data = data_at + std::strlen(kDataMark);
   const std::string title = (data.passed ? "Passed: " : "Failed: ") + data.title;
-  return page.substr(0, title_at) + htmlEscaped(title) +
+  return page.substr(0, title_at) + markupEscaped(title) +
          page.substr(after_title, data_at - after_title) +
          scriptSafe(reportJson(data, urdf_text, size)) + page.substr(after_data);
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/markup_text.hpp"
 #include "experiment/verdict.hpp"
 #include "studies/setting_text.hpp"
 #include "studies/study_answer.hpp"
@@ -16,26 +17,6 @@ namespace ballbot {
 namespace {
 
 constexpr std::size_t kExtremesShown = 5;
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 /// Rows: curves. Columns: places along the axis. Each cell how many of how many passed, with a
 /// colour that goes with it.
@@ -50,13 +31,13 @@ std::string heatMap(const StudyView& view, const StudyPanel& panel) {
   }
   std::sort(columns.begin(), columns.end());
   std::string out = fmt::format("<table class=\"heat\"><thead><tr><th scope=\"col\">{}</th>",
-                                escaped(withUnit(view.along->name, view.along->unit)));
+                                markupEscaped(withUnit(view.along->name, view.along->unit)));
   for (const auto& column : columns)
-    out += fmt::format("<th scope=\"col\">{}</th>", escaped(column.second));
+    out += fmt::format("<th scope=\"col\">{}</th>", markupEscaped(column.second));
   out += "</tr></thead><tbody>";
   for (const StudyCurve& curve : panel.curves) {
     if (curve.points.empty()) continue;
-    out += fmt::format("<tr><th scope=\"row\">{}</th>", escaped(curveLabel(view, curve)));
+    out += fmt::format("<tr><th scope=\"row\">{}</th>", markupEscaped(curveLabel(view, curve)));
     for (const auto& column : columns) {
       const auto point = std::find_if(curve.points.begin(), curve.points.end(),
                                       [&](const auto& p) { return p.label == column.second; });
@@ -78,8 +59,8 @@ std::string caseRow(const Study& study, const StudyCase& c, const CaseResult& r,
   return fmt::format(
       "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"number\">{}</td></tr>"
       "<tr class=\"command\"><td colspan=\"4\"><code>{}</code></td></tr>",
-      escaped(c.describe(study)), toText(r.outcome), escaped(r.reason), escaped(value),
-      escaped(commandLine(c.command(study.scenario))));
+      markupEscaped(c.describe(study)), toText(r.outcome), markupEscaped(r.reason),
+      markupEscaped(value), markupEscaped(commandLine(c.command(study.scenario))));
 }
 
 std::string caseTable(const std::string& title, const std::string& metric,
@@ -88,7 +69,7 @@ std::string caseTable(const std::string& title, const std::string& metric,
   return fmt::format(
       "<h3>{}</h3><table class=\"cases\"><thead><tr><th>case</th><th>outcome</th><th>reason</th>"
       "<th class=\"number\">{}</th></tr></thead><tbody>{}</tbody></table>",
-      escaped(title), escaped(metric), rows);
+      markupEscaped(title), markupEscaped(metric), rows);
 }
 
 std::string extremes(const Study& study, const StudyEngine& engine) {
@@ -128,8 +109,8 @@ std::string extremes(const Study& study, const StudyEngine& engine) {
 std::string studyPage(const Study& study, const StudyEngine& engine,
                       const std::vector<PlaceBoundary>& boundaries) {
   const StudyView view = arrange(study, engine.cases(), engine.results());
-  std::string body = fmt::format("<header><h1>{}</h1><p>{}</p></header>", escaped(study.name),
-                                 escaped(study.summary));
+  std::string body = fmt::format("<header><h1>{}</h1><p>{}</p></header>", markupEscaped(study.name),
+                                 markupEscaped(study.summary));
   body += fmt::format(
       "<p class=\"facts\">{} cases: {} passed, {} missed a requirement, {} fell, {} did not run. "
       "Scenario <code>{}</code>. "
@@ -138,7 +119,7 @@ std::string studyPage(const Study& study, const StudyEngine& engine,
       engine.count(CaseOutcome::kFell),
       engine.count(CaseOutcome::kError) + engine.count(CaseOutcome::kCrashed) +
           engine.count(CaseOutcome::kTimedOut),
-      escaped(study.scenario), engine.table().digest());
+      markupEscaped(study.scenario), engine.table().digest());
   std::string answer;
   for (const PlaceBoundary& b : boundaries) {
     std::string place;
@@ -148,17 +129,17 @@ std::string studyPage(const Study& study, const StudyEngine& engine,
             fmt::format("{}{} {}", place.empty() ? "" : ", ", study.axes[a].name, b.place[a].label);
     }
     answer += fmt::format(
-        "<li>{}{}{}: {}.</li>", escaped(study.search->axis), place.empty() ? "" : " at ",
-        escaped(place),
-        escaped(toText(b.boundary, study.search->rate, study.axis(study.search->axis).unit)));
+        "<li>{}{}{}: {}.</li>", markupEscaped(study.search->axis), place.empty() ? "" : " at ",
+        markupEscaped(place),
+        markupEscaped(toText(b.boundary, study.search->rate, study.axis(study.search->axis).unit)));
   }
   if (boundaries.empty()) {
     for (const std::string& sentence : studyComparison(study, view))
-      answer += fmt::format("<li><strong>{}</strong></li>", escaped(sentence));
+      answer += fmt::format("<li><strong>{}</strong></li>", markupEscaped(sentence));
     for (const std::string& sentence : studyAnswer(study, view))
-      answer += fmt::format("<li>{}</li>", escaped(sentence));
+      answer += fmt::format("<li>{}</li>", markupEscaped(sentence));
     for (const std::string& sentence : studyMetrics(study, view))
-      answer += fmt::format("<li>{}</li>", escaped(sentence));
+      answer += fmt::format("<li>{}</li>", markupEscaped(sentence));
   }
   if (!answer.empty()) body += "<section><h2>What came out</h2><ul>" + answer + "</ul></section>";
   if (view.along && boundaries.empty()) {
@@ -168,7 +149,7 @@ std::string studyPage(const Study& study, const StudyEngine& engine,
           "<section><h2>{}</h2>{}<figure>{}<figcaption>Lines: share that passes, or median of runs "
           "that stayed up. Bands: its 95 % interval (Wilson), or least and "
           "largest.</figcaption></figure></section>",
-          escaped(figures[i].title), heatMap(view, view.panels[i]), figures[i].svg);
+          markupEscaped(figures[i].title), heatMap(view, view.panels[i]), figures[i].svg);
     }
   }
   body +=
@@ -181,7 +162,7 @@ std::string studyPage(const Study& study, const StudyEngine& engine,
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
       "'unsafe-inline'\">"
       "<title>Study: {}</title><style>{}</style></head><body>{}</body></html>\n",
-      escaped(study.name), kStudyStyle, body);
+      markupEscaped(study.name), kStudyStyle, body);
 }
 
 }  // namespace ballbot
