@@ -6,22 +6,11 @@
 #include "core/error.hpp"
 #include "model/frames.hpp"
 #include "model/reduced_dynamics.hpp"
+#include "support/busy_command.hpp"
 #include "support/plant_fixture.hpp"
 
 namespace ballbot {
 namespace {
-
-SimTime ms(double t) { return simTimeFromNs(std::llround(1e6 * t)); }
-
-/// Something for every part of the plant to do.
-ActuatorCommand busyCommand() {
-  ActuatorCommand c;
-  c.torque << 0.4, -0.3, 0.2, 0.5, -2, 1;
-  c.position << 0, 0, 0, 0, -0.6, 2.17;
-  c.stiffness << 0.2, 0.2, 0.2, 8, 8, 8;
-  c.damping << 0.02, 0.02, 0.02, 0.6, 0.6, 0.6;
-  return c;
-}
 
 std::string messageOf(const std::function<void()>& action) {
   try {

@@ -2,22 +2,11 @@
 
 #include "core/error.hpp"
 #include "plant/plant.hpp"
+#include "support/busy_command.hpp"
 #include "support/plant_fixture.hpp"
 
 namespace ballbot {
 namespace {
-
-SimTime ms(double t) { return simTimeFromNs(std::llround(1e6 * t)); }
-
-/// Something for every part of the plant to do.
-ActuatorCommand busyCommand() {
-  ActuatorCommand c;
-  c.torque << 0.4, -0.3, 0.2, 0.5, -2, 1;
-  c.position << 0, 0, 0, 0, -0.6, 2.17;
-  c.stiffness << 0.2, 0.2, 0.2, 8, 8, 8;
-  c.damping << 0.02, 0.02, 0.02, 0.6, 0.6, 0.6;
-  return c;
-}
 
 /// Wheel torques alone, changing from call to call; true states on the way.
 std::vector<StateVector> drivenByWheels(const std::vector<std::string>& overrides, double factor) {
