@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "controller/governed_added.hpp"
 #include "controller/time_signal.hpp"
 #include "core/registry.hpp"
 #include "model/robot_parameters.hpp"
@@ -33,6 +34,14 @@ class AddedTask {
   virtual void describe(ConfigVisitor& v) = 0;
   /// At time t [s] as known at `known` <= t, see TimeSignal::value. Free of allocation.
   virtual void at(double t, double known, TaskTarget& out) const noexcept = 0;
+  /// How far its command may lie away at once, see CommandGovernor. What is free may ask the robot
+  /// for more than it can do.
+  virtual CommandKind commandKind() const noexcept { return CommandKind::kFree; }
+  /// Where the robot is, in the terms of the reference; asked only if the command is governed.
+  virtual Vector3 present(const StateVector& x) const noexcept {
+    (void)x;
+    return Vector3::Zero();
+  }
   /// e(x), zero beyond the dimension, and de/dx where `J`, which is zero before, is not null. Free
   /// of allocation.
   virtual void residual(const StateVector& x, const Vector3& reference, Vector3& e,

@@ -73,6 +73,28 @@ CommandGovernor::CommandGovernor(const RobotParameters& robot, const CommandLimi
   }
 }
 
+void CommandGovernor::governAdded(const AddedTasks& tasks) {
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    GovernedAdded& command = commands_.added[i];
+    command.kind = tasks[i]->commandKind();
+    bound(command.place, limits_.step, limits_.lead, limits_.ee_speed);
+    bound(command.orientation, limits_.angle_step, limits_.angle_lead, limits_.angle_speed);
+  }
+}
+
+void CommandGovernor::followAdded(const Tasks& asked, double seconds,
+                                  const StateVector& x) noexcept {
+  for (std::size_t i = 0; i < asked.added->size(); ++i) {
+    GovernedAdded& command = commands_.added[i];
+    if (command.kind == CommandKind::kFree) continue;
+    const TaskTarget& target = asked.added_target[i];
+    if (!started_) command.start(target.reference);
+    command.follow(target.reference, seconds, (*asked.added)[i]->present(x), limits_.lag,
+                   limits_.angle_lag);
+    cutting_ = cutting_ || (!target.weight.isZero(0) && command.cuts(target.reference));
+  }
+}
+
 void CommandGovernor::update(SimTime now, const TaskSchedule& schedule, const StateVector& x,
                              const ReducedDynamics::EndEffector& tip) noexcept {
   const double t = toSeconds(now - kSimStart);
@@ -100,6 +122,7 @@ void CommandGovernor::update(SimTime now, const TaskSchedule& schedule, const St
       (!asked.ee_orientation_weight.isZero(0) && commands_.ee_orientation.cuts(asked.R_WE)) ||
       (asked.yaw_weight != 0 && commands_.yaw.cuts(scalar(asked.yaw))) ||
       (!asked.arm_position_weight.isZero(0) && commands_.arm_position.cuts(asked.arm_position));
+  if (asked.added != nullptr) followAdded(asked, seconds, x);
   started_ = true;
   last_ = now;
 }

@@ -33,6 +33,9 @@ class CommandGovernor {
  public:
   CommandGovernor(const RobotParameters& robot, const CommandLimits& limits);
 
+  /// Governs the commands of added tasks as well, as each says of itself. Before all else.
+  void governAdded(const AddedTasks& tasks);
+
   /// Moves on to `now` and to where the robot is.
   void update(SimTime now, const TaskSchedule& schedule, const StateVector& x,
               const ReducedDynamics::EndEffector& tip) noexcept;
@@ -52,9 +55,12 @@ class CommandGovernor {
     visit(self.commands_.ball_position);
     visit(self.commands_.yaw);
     visit(self.commands_.arm_position);
+    visit(self.commands_.added);
   }
 
  private:
+  void followAdded(const Tasks& asked, double seconds, const StateVector& x) noexcept;
+
   CommandLimits limits_;
   GovernedCommands commands_;
   bool started_ = false;

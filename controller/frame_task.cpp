@@ -14,6 +14,10 @@ class FramePositionTask final : public AddedTaskOf<3> {
                     const StateVector& rest)
       : AddedTaskOf(name, frameKinematics(robot, frame, rest).p_WF), robot_(robot), frame_(frame) {}
 
+  CommandKind commandKind() const noexcept override { return CommandKind::kPlace; }
+  Vector3 present(const StateVector& x) const noexcept override {
+    return frameKinematics(robot_, frame_, x).p_WF;
+  }
   void residual(const StateVector& x, const Vector3& reference, Vector3& e,
                 TaskJacobian* J) const noexcept override {
     const FrameKinematics f = frameKinematics(robot_, frame_, x);
@@ -35,6 +39,10 @@ class FrameOrientationTask final : public AddedTaskOf<3> {
         robot_(robot),
         frame_(frame) {}
 
+  CommandKind commandKind() const noexcept override { return CommandKind::kOrientation; }
+  Vector3 present(const StateVector& x) const noexcept override {
+    return yawPitchRollFromRotation(frameKinematics(robot_, frame_, x).R_WF);
+  }
   void residual(const StateVector& x, const Vector3& reference, Vector3& e,
                 TaskJacobian* J) const noexcept override {
     const FrameKinematics f = frameKinematics(robot_, frame_, x);

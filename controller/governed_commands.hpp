@@ -1,6 +1,9 @@
 #pragma once
 
-#include "controller/governed_orientation.hpp"
+#include <array>
+
+#include "controller/cost_terms.hpp"
+#include "controller/governed_added.hpp"
 
 namespace ballbot {
 
@@ -8,9 +11,10 @@ namespace ballbot {
 struct GovernedCommands {
   GovernedCommand<3> ee_position;  ///< [m]
   GovernedOrientation ee_orientation;
-  GovernedCommand<2> ball_position;  ///< [m]
-  GovernedCommand<1> yaw;            ///< [rad]
-  GovernedCommand<3> arm_position;   ///< [rad]
+  GovernedCommand<2> ball_position;                 ///< [m]
+  GovernedCommand<1> yaw;                           ///< [rad]
+  GovernedCommand<3> arm_position;                  ///< [rad]
+  std::array<GovernedAdded, kMaxAddedTasks> added;  ///< in the order of the schedule's
   /// The longest force that the end-effector is asked to push with [N].
   double push = std::numeric_limits<double>::infinity();
 };

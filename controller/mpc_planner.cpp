@@ -165,6 +165,7 @@ MpcPlanner::MpcPlanner(const RobotParameters& robot, const MpcConfig& config)
       governor_(robot, config.command_limits),
       engine_(makeEngine(robot, config)),
       seed_(engine_->emptyPolicy()) {
+  governor_.governAdded(config.schedule->added);
   const LqrSolution lqr = designLqr(dynamics_, config.lqr.set_point.arm, config.lqr.weights);
   if (config.engine == MpcConfig::Engine::kDiscrete) {
     seed_gains_ = designHeldLqr(dynamics_, lqr, config.lqr.weights, config.horizon.knots());

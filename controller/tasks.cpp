@@ -138,7 +138,11 @@ void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& 
   normal_force = std::min(normal_force, contact.force_limit) + contact.force_added;
   out.contact_moment_C = contact_moment.value(t, known);
   out.added = added.empty() ? nullptr : &added;
-  for (std::size_t i = 0; i < added.size(); ++i) added[i]->at(t, known, out.added_target[i]);
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    TaskTarget& target = out.added_target[i];
+    added[i]->at(t, known, target);
+    target.reference = commands.added[i].reference(target.reference, ahead);
+  }
   const double turn = contact_turn.value(t, known)[0] + contact.turn;
   out.R_WC = Eigen::AngleAxisd(turn, Vector3::UnitZ()) * contactFrame(contact_normal_W);
 }

@@ -57,6 +57,28 @@ INSTANTIATE_TEST_SUITE_P(
                    "{moves: [{at_s: 2, by: [5, 0, 0]}]}"}),
     [](const auto& test) { return std::string(test.param.name); });
 
+// Tasks on frames are commands like the end-effector's.
+TEST(FarFrameCommands, AreApproachedAndDoNotFellTheRobot) {
+  const char* const place = "{moves: [{at_s: 2, by: [100, 0, 0]}]}";
+  const char* const turn = "{moves: [{at_s: 3, by: [30, 2, 2]}]}";
+  for (const char* body : {"base", "arm_2"}) {
+    const TemporaryFolder folder;
+    const std::string frames = fmt::format(
+        "frames=[{{name: one, body: {}, position: {{weight: 100, reference: {}}}, orientation: "
+        "{{weight: [0, 0, 5], reference: {}}}}}]",
+        body, place, turn);
+    const Finished run = runBallbot(
+        {"run", scenarioPath("balance"), "--seed", "3", "--in-process", "--quiet", "--no-report",
+         "--json", "--out", folder / "run", "--set", "duration_s=9", "--set", "requirements={}",
+         "--set", "plant.fidelity.multibody=reduced_wheels", "--set", kTasks + frames});
+    const auto json = nlohmann::json::parse(run.out, nullptr, false);
+    ASSERT_FALSE(json.is_discarded()) << run.err;
+    EXPECT_FALSE(json["fell"].get<bool>()) << body;
+    EXPECT_LT(json["largest_tilt_deg"].get<double>(), 20) << body;
+    EXPECT_GT(json["metrics"]["plans_with_cut_commands"].get<double>(), 0) << body;
+  }
+}
+
 /// What nobody sane asks for, repeatable by number: every task of the scenario is sent somewhere
 /// six times in 20 s, up to 100 m or 100 rad away, at once or within seconds.
 class AbsurdCommands {
