@@ -5,15 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "controller/floor_limit.hpp"
 #include "controller/law_registry.hpp"
 #include "core/error.hpp"
 
 namespace ballbot {
 namespace {
-
-/// That the tracker may use: more than a plan, to whose feedback it leaves the rest.
-constexpr double kShareOfFloor = 0.8;
 
 const LawKind& describeKind(ConfigVisitor& v) {
   return lawKinds().choose(
@@ -29,6 +25,11 @@ void describeKnownPayload(ConfigVisitor& v, double& payload) {
                "mass in the robot's hand that estimator and law count on; by "
                "default the one of the robot's own description"),
            payload, {0, 5});
+}
+
+void describeFloor(ConfigVisitor& v, FloorBelief& floor) {
+  v.section(may("floor", "what is believed of the floor under the ball"),
+            [&](ConfigVisitor& in) { floor.describe(in); });
 }
 
 /// Every section of every law, each once.
@@ -67,9 +68,7 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
   out.law = sayingWhere(out.kind_, [&] { return kind.read(in, out.believed_robot); });
   ConfigReader tracker = in.child("tracker");
   out.tracker = TrackerConfig::read(tracker, robot);
-  double floor = kUnlimited;
-  describeFloor(reading, floor);
-  if (floor < kUnlimited) out.spin_torque_limit = kShareOfFloor * floor;
+  describeFloor(reading, out.floor);
   tracker.finish();
   forEachSection([&](const LawSection& section) { in.raw(section.key.name); });
   in.finish();
@@ -87,7 +86,7 @@ void describeController(ConfigVisitor& v, const RobotParameters& robot) {
   TrackerConfig tracker = TrackerConfig::defaults(robot);
   describeKind(v);
   describeKnownPayload(v, known_payload);
-  double floor = kUnlimited;
+  FloorBelief floor;
   describeFloor(v, floor);
   v.section(must("tracker", "follows the law's plan, at the highest rate"),
             [&](ConfigVisitor& in) { tracker.describe(in); });

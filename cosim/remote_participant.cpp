@@ -188,25 +188,30 @@ void RemoteParticipant::adoptReply(SimTime expected) {
   fromMessage(reply.sensors, sensors_);
   const std::string bad_sensor = firstImpossible(sensors_, expected);
   if (!bad_sensor.empty()) throwUnbelievable(bad_sensor);
-  std::vector<double>& added = options_.added_sensors.values;
-  added.resize(options_.added_sensors.list.size());
-  const bool finite = std::all_of(reply.added.begin(), reply.added.end(),
-                                  [](double v) { return std::isfinite(v); });
-  if (reply.added.size() != added.size() || !finite) {
-    throwUnbelievable(fmt::format("{} added sensor values{}, and the configuration has {}",
-                                  reply.added.size(), finite ? "" : " of which not all are finite",
-                                  added.size()));
-  }
-  added = reply.added;
+  adoptAdded(AddedTo::kSensors, reply.added);
   state_digest_ = static_cast<std::uint64_t>(reply.state_digest);
   if (reply.truth_count == 1) {
     if (!truth_) truth_.emplace();
     fromMessage(reply.truth[0], *truth_);
     const std::string bad_truth = firstImpossible(*truth_, expected);
     if (!bad_truth.empty()) throwUnbelievable(bad_truth);
+    adoptAdded(AddedTo::kTruth, reply.truth_added);
   } else {
     truth_.reset();
   }
+}
+
+void RemoteParticipant::adoptAdded(AddedTo frame, const std::vector<double>& values) {
+  AddedSignals& added = options_.added[frame];
+  const bool finite =
+      std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  if (values.size() != added.list.size() || !finite) {
+    throwUnbelievable(fmt::format("{} values beside its {}{}, and the configuration has {}",
+                                  values.size(), frame == AddedTo::kTruth ? "truth" : "sensors",
+                                  finite ? "" : ", of which not all are finite",
+                                  added.list.size()));
+  }
+  added.values = values;
 }
 
 void RemoteParticipant::throwUnbelievable(const std::string& what) const {

@@ -22,7 +22,7 @@ class NativePlantModel final : public SteppedModel {
   StateBlob save() override { return plant_.saveState(); }
   void restore(const StateBlob& blob) override;
   const std::vector<double>& outputs() const override { return outputs_; }
-  const AddedSignals& addedSensors() const { return plant_.addedSensors(); }
+  const AddedSignals& added(AddedTo frame) const { return plant_.added(frame); }
   std::uint64_t digest() const override { return plant_.stateDigest(); }
 
  private:
