@@ -75,7 +75,7 @@ void PlantLink::start() {
   remote.first_patience =
       child_ ? std::max(options_.patience, std::chrono::milliseconds(30'000)) : options_.patience;
   remote.added[AddedTo::kSensors] = config_.plant.plant.added_sensors.signals();
-  if (!config_.plant.coupling) {
+  if (!config_.plant.coupling || config_.plant.coupling->has_floor_truth) {
     remote.added[AddedTo::kTruth] = FloorTruth(config_.plant.plant).signals();
   }
   remote.stop = options_.stop;

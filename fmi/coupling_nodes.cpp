@@ -8,20 +8,32 @@
 #include "core/error.hpp"
 #include "fmi/fmu_ports.hpp"
 #include "model/signal_table.hpp"
+#include "plant/floor_truth.hpp"
 
 namespace ballbot {
 namespace {
 
 template <typename Frame>
+void describePort(const Signal<Frame>& s, CouplingPort& port) {
+  const std::string unit = unitName(s.unit, !isWhole(s.kind));
+  if (!unit.empty()) port.unit = fmuUnit(unit);
+  if (isWhole(s.kind)) port.kind = ValueKind::kInteger;
+  port.size = static_cast<std::size_t>(s.size);
+}
+
+void describePort(const AddedSignal& s, CouplingPort& port) {
+  const std::string unit = unitName(s.unit, true);
+  if (!unit.empty()) port.unit = fmuUnit(unit);
+  port.size = 1;
+}
+
+template <typename AnySignal>
 void addPorts(std::vector<CouplingPort>& ports, const std::string& prefix,
-              const std::vector<Signal<Frame>>& signals) {
+              const std::vector<AnySignal>& signals) {
   for (const auto& s : signals) {
     CouplingPort port;
     port.name = prefix + s.name;
-    const std::string unit = unitName(s.unit, !isWhole(s.kind));
-    if (!unit.empty()) port.unit = fmuUnit(unit);
-    if (isWhole(s.kind)) port.kind = ValueKind::kInteger;
-    port.size = static_cast<std::size_t>(s.size);
+    describePort(s, port);
     CouplingNode::add(ports, std::move(port));
   }
 }
@@ -102,6 +114,7 @@ CouplingNode controllerNode() {
 CouplingNode recordNode() {
   CouplingNode node{kRecordName, {}, {}};
   addPorts(node.inputs, "truth.", truthSignals());
+  addPorts(node.inputs, "truth.", FloorTruth::list());
   return node;
 }
 
@@ -111,6 +124,7 @@ CouplingNode nativePlantNode() {
   addPorts(node.inputs, "force.", externalForceSignals());
   addPorts(node.outputs, "sensors.", sensorSignals());
   addPorts(node.outputs, "truth.", truthSignals());
+  addPorts(node.outputs, "truth.", FloorTruth::list());
   return node;
 }
 

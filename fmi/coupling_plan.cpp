@@ -9,6 +9,7 @@
 #include "fmi/fmu_ports.hpp"
 #include "fmi/plant_contents.hpp"
 #include "model/signal_table.hpp"
+#include "plant/floor_truth.hpp"
 
 namespace ballbot {
 namespace {
@@ -19,8 +20,8 @@ constexpr const char* kDigestPort = "state_digest";
 std::string withoutElement(const std::string& end) { return end.substr(0, end.find('[')); }
 
 /// Lines that nobody had to write, from `from` to `to` for each signal whose plant has that name.
-template <typename Frame>
-void addLines(std::vector<CouplingLine>& lines, const std::vector<Signal<Frame>>& signals,
+template <typename AnySignal>
+void addLines(std::vector<CouplingLine>& lines, const std::vector<AnySignal>& signals,
               const std::string& from, const std::string& to, const UsedFmu* plant) {
   for (const auto& s : signals) {
     CouplingLine line{from + s.name, to + s.name, false, {}};
@@ -126,6 +127,7 @@ CouplingPlan planCoupling(const ConfigNode& scenario) {
   addLines(lines, commandSignals(), "controller.command.", "plant.command.", plant_fmu);
   addLines(lines, sensorSignals(), "plant.sensors.", "controller.sensors.", plant_fmu);
   addLines(lines, truthSignals(), "plant.truth.", "record.truth.", plant_fmu);
+  addLines(lines, FloorTruth::list(), "plant.truth.", "record.truth.", plant_fmu);
 
   std::vector<CouplingNode> nodes;
   std::vector<FmuUse> uses;
@@ -146,7 +148,8 @@ CouplingPlan planCoupling(const ConfigNode& scenario) {
   }
   nodes.push_back(controllerNode());
   nodes.push_back(recordNode());
-  CouplingPlan plan{CouplingGraph(std::move(nodes), lines), std::move(uses), !plant_fmu, true};
+  CouplingPlan plan{CouplingGraph(std::move(nodes), lines), std::move(uses), !plant_fmu, true,
+                    true};
   if (plant_fmu) {
     requireSensors(plan.graph, plant_fmu->entry.where);
     requireSamePlant(scenario, plant_fmu->entry, plant_fmu->description);
@@ -154,7 +157,8 @@ CouplingPlan planCoupling(const ConfigNode& scenario) {
   requireWholeInputs(plan.graph);
   const std::size_t record = plan.graph.find(kRecordName);
   for (const CouplingPort& input : plan.graph.nodes()[record].inputs) {
-    plan.has_truth = plan.has_truth && plan.graph.fed(record, input);
+    bool& has = input.offset < rowSize(truthSignals()) ? plan.has_truth : plan.has_floor_truth;
+    has = has && plan.graph.fed(record, input);
   }
   return plan;
 }

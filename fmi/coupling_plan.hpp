@@ -11,9 +11,10 @@ namespace ballbot {
 /// any of them runs.
 struct CouplingPlan {
   CouplingGraph graph;
-  std::vector<FmuUse> fmus;  ///< of the graph's nodes of the same names
-  bool native_plant = true;  ///< no FMU stands in the plant's place
-  bool has_truth = false;    ///< the true state can go on record
+  std::vector<FmuUse> fmus;      ///< of the graph's nodes of the same names
+  bool native_plant = true;      ///< no FMU stands in the plant's place
+  bool has_truth = false;        ///< the true state can go on record
+  bool has_floor_truth = false;  ///< and what holds the ball's spin (plant/floor_truth.hpp)
 };
 
 /// Completes the connections by names: what the plant's FMU calls like the signals of the messages

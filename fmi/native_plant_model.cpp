@@ -1,11 +1,16 @@
 #include "fmi/native_plant_model.hpp"
 
+#include <algorithm>
+
 #include "model/signal_table.hpp"
+#include "plant/floor_truth.hpp"
 
 namespace ballbot {
 
 NativePlantModel::NativePlantModel(const PlantConfig& config)
-    : plant_(config), outputs_(rowSize(sensorSignals()) + rowSize(truthSignals()), 0.0) {
+    : plant_(config),
+      outputs_(rowSize(sensorSignals()) + rowSize(truthSignals()) + FloorTruth::list().size(),
+               0.0) {
   observe();
 }
 
@@ -31,7 +36,10 @@ void NativePlantModel::restore(const StateBlob& blob) {
 
 void NativePlantModel::observe() {
   readSignals(sensorSignals(), plant_.sensors(), outputs_.data());
-  readSignals(truthSignals(), plant_.truth(), outputs_.data() + rowSize(sensorSignals()));
+  double* truth = outputs_.data() + rowSize(sensorSignals());
+  readSignals(truthSignals(), plant_.truth(), truth);
+  const std::vector<double>& floor = plant_.added(AddedTo::kTruth).values;
+  std::copy(floor.begin(), floor.end(), truth + rowSize(truthSignals()));
 }
 
 }  // namespace ballbot

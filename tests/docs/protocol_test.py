@@ -78,7 +78,7 @@ class Protocol(unittest.TestCase):
             name, message = self.wire.decode(data)
             self.assertEqual(self.wire.encode(name, message), data, channel)
             seen[name] = message
-        self.assertEqual(set(seen), {"actuator_command", "plan_report", "sensor_frame", "state_estimate",
+        self.assertEqual(set(seen), {"actuator_command", "added_values", "plan_report", "sensor_frame", "state_estimate",
                                      "tick_digests", "truth_frame"})
         self.assertGreater(seen["truth_frame"]["sim_time_ns"], 590_000_000)
         self.assertAlmostEqual(sum(c * c for c in seen["truth_frame"]["quat_WE"]), 1, delta=1e-9)
