@@ -50,12 +50,7 @@ RobotParameters plainRobot() {
 
 void describeScenario(ConfigVisitor& v) {
   Scenario s;
-  int seed = 1;
-  s.tree = ConfigNode::map({});
-  v.text(must("name", "of the run's folder"), s.name);
-  v.text(may("summary", "a line for people"), s.summary);
-  v.duration(must("duration_s", "simulated time"), s.duration, {1e-3, 1e5});
-  v.integer(may("seed", "of every noise source"), seed, {0, kInf});
+  s.describe(v);
   v.section(must("robot", "what it is made of"), [](ConfigVisitor& in) {
     describeRobot(in);
     in.section(may("sensors", "figures of its sensors"), describeSensors);
