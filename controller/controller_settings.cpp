@@ -64,12 +64,16 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
   describeKnownPayload(reading, out.believed_robot.payload_mass);
   const LawKind& kind = describeKind(reading);
   out.kind_ = in.at("kind");
-  out.law = sayingWhere(out.kind_, [&] { return kind.read(in, out.believed_robot); });
-  ConfigReader tracker = in.child("tracker");
-  out.tracker = TrackerConfig::read(tracker, robot);
   double floor = kUnlimited;
   describeFloor(reading, floor);
-  if (floor < kUnlimited) out.spin_torque_limit = kShareOfFloor * floor;
+  auto law = sayingWhere(out.kind_, [&] { return kind.read(in, out.believed_robot); });
+  if (floor < kUnlimited) {
+    law->takeFloor(floor);
+    out.spin_torque_limit = kShareOfFloor * floor;
+  }
+  out.law = std::move(law);
+  ConfigReader tracker = in.child("tracker");
+  out.tracker = TrackerConfig::read(tracker, robot);
   tracker.finish();
   forEachSection([&](const LawSection& section) { in.raw(section.key.name); });
   in.finish();

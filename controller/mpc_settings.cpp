@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "controller/background_mpc_law.hpp"
-#include "controller/floor_limit.hpp"
 #include "controller/law_kinds.hpp"
 #include "controller/mpc_law.hpp"
 #include "controller/shaped_lqr.hpp"
@@ -22,10 +21,6 @@ MpcConfig readConfig(ConfigReader& controller, const RobotParameters& robot) {
     ConfigReader lqr = controller.child("lqr");
     config.lqr = LqrLawConfig::read(lqr, robot);
   }
-  double floor = kUnlimited;
-  ConfigReading reading(controller);
-  describeFloor(reading, floor);
-  config.constraints.takeFloor(floor);
   return config;
 }
 
