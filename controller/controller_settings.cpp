@@ -8,6 +8,7 @@
 #include "controller/floor_limit.hpp"
 #include "controller/law_registry.hpp"
 #include "core/error.hpp"
+#include "core/foreign_code.hpp"
 
 namespace ballbot {
 namespace {
@@ -44,9 +45,9 @@ void forEachSection(Use&& use) {
 
 /// What cannot be balanced is a fault of the file in which it was asked for.
 template <typename Work>
-auto sayingWhere(const std::string& kind, Work&& work) {
+auto sayingWhere(const std::string& kind, const std::string& law, Work&& work) {
   try {
-    return work();
+    return doneBy(fmt::format("{}: the law '{}'", kind, law), work);
   } catch (const NumericalError& e) {
     throw InputError(fmt::format(
         "{}: no such law balances this robot: {}. Masses and lengths (in m) are in robot.urdf, the "
@@ -66,7 +67,12 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
   out.kind_ = in.at("kind");
   double floor = kUnlimited;
   describeFloor(reading, floor);
-  auto law = sayingWhere(out.kind_, [&] { return kind.read(in, out.believed_robot); });
+  out.law_ = kind.name;
+  auto law = sayingWhere(out.kind_, kind.name, [&] {
+    auto read = kind.read(in, out.believed_robot);
+    if (!read) throw std::logic_error("its LawKind::read() made nothing");
+    return read;
+  });
   if (floor < kUnlimited) {
     law->takeFloor(floor);
     out.spin_torque_limit = kShareOfFloor * floor;
@@ -81,9 +87,11 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
 }
 
 std::unique_ptr<ControlLaw> ControllerSettings::makeLaw() const {
-  auto made = sayingWhere(kind_, [&] { return law->makeLaw(); });
-  if (!made) throw std::logic_error(kind_ + ": its LawSettings::makeLaw() made nothing");
-  return made;
+  return sayingWhere(kind_, law_, [&] {
+    auto made = law->makeLaw();
+    if (!made) throw std::logic_error("its LawSettings::makeLaw() made nothing");
+    return made;
+  });
 }
 
 void describeController(ConfigVisitor& v, const RobotParameters& robot) {

@@ -1,7 +1,6 @@
 #include "cosim/remote_participant.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -188,16 +187,14 @@ void RemoteParticipant::adoptReply(SimTime expected) {
   fromMessage(reply.sensors, sensors_);
   const std::string bad_sensor = firstImpossible(sensors_, expected);
   if (!bad_sensor.empty()) throwUnbelievable(bad_sensor);
-  std::vector<double>& added = options_.added_sensors.values;
-  added.resize(options_.added_sensors.list.size());
-  const bool finite = std::all_of(reply.added.begin(), reply.added.end(),
-                                  [](double v) { return std::isfinite(v); });
-  if (reply.added.size() != added.size() || !finite) {
-    throwUnbelievable(fmt::format("{} added sensor values{}, and the configuration has {}",
-                                  reply.added.size(), finite ? "" : " of which not all are finite",
-                                  added.size()));
+  AddedSignals& added = options_.added_sensors;
+  if (reply.added.size() != added.list.size()) {
+    throwUnbelievable(fmt::format("{} added sensor values, and the configuration has {}",
+                                  reply.added.size(), added.list.size()));
   }
-  added = reply.added;
+  added.values = reply.added;
+  const std::string bad_added = firstNonFinite(added);
+  if (!bad_added.empty()) throwUnbelievable("added sensor value " + bad_added);
   state_digest_ = static_cast<std::uint64_t>(reply.state_digest);
   if (reply.truth_count == 1) {
     if (!truth_) truth_.emplace();
