@@ -23,6 +23,7 @@ class BackgroundMpcLaw final : public ControlLaw {
   PlanReport plan(SimTime now, const StateVector& x,
                   const JointVector& joint_angle) noexcept override;
   void setContactForce(const Vector3& force_W) noexcept override { contact_force_W_ = force_W; }
+  void setFloorHeld(double torque) noexcept override { floor_held_ = torque; }
   /// Before the first plan(): then the planner is the solver thread's.
   void setClock(PhaseClock clock) noexcept override { planner_.setClock(clock); }
   void activatePlan() noexcept override;
@@ -43,6 +44,7 @@ class BackgroundMpcLaw final : public ControlLaw {
     Vector3 xf = Vector3::Zero();
     JointVector joint_angle = JointVector::Zero();
     Vector3 contact_force_W = Vector3::Zero();
+    double floor_held = kUnlimited;
     PolicySample stand_in;
   };
   struct Result {
@@ -53,6 +55,7 @@ class BackgroundMpcLaw final : public ControlLaw {
 
   MpcExecution execution_;
   Vector3 contact_force_W_ = Vector3::Zero();
+  double floor_held_ = kUnlimited;
 
   MpcPlanner planner_;  // the solver thread's alone
   LatestValue<Request> requests_;

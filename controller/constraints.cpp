@@ -65,7 +65,7 @@ void Constraints::describe(ConfigVisitor& v) {
             });
   v.section(may("spin_torque_limit",
                 "barrier at the torque about the vertical beyond which the ball would spin on its "
-                "floor; in effect where controller.floor_spin_torque_Nm is given"),
+                "floor; in effect where controller.floor.limited"),
             [&](ConfigVisitor& in) {
               describeBarrier(in, spin_torque);
               in.number(may("share_of_limit", "share of what the floor holds that a plan may use"),

@@ -44,9 +44,9 @@ struct Constraints {
   explicit Constraints(const RobotParameters& robot);
 
   void describe(ConfigVisitor& v);
-  /// @param held  torque that the floor holds; kUnlimited: it is not known [N m]
-  void takeFloor(double held) {
-    if (held < kUnlimited) spin_torque_limit = spin_torque_share * held;
+  /// @param held  torque that the floor holds; kUnlimited without end [N m]
+  void takeFloor(double held) noexcept {
+    spin_torque_limit = held < kUnlimited ? spin_torque_share * held : kUnlimited;
   }
   /// Sets the limits that are shares of the robot's; to be called again after a share was read.
   void takeShares(const RobotParameters& robot);

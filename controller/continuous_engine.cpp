@@ -23,6 +23,7 @@ ContinuousEngine<NU>::ContinuousEngine(const RobotParameters& robot, const Const
                                        const SlqOptions& options,
                                        const ContinuousOptions& continuous)
     : problem_(robot, constraints, shaping, terminal, std::move(schedule)),
+      floor_limited_(robot, constraints, problem_),
       solver_(knots, options, continuous, stateSize()) {}
 
 template <int NU>
@@ -43,8 +44,10 @@ MpcSolveReport ContinuousEngine<NU>::solve(SimTime now, const MpcState& x0, cons
                                            int iterations, MpcPolicy& out) noexcept {
   problem_.setHorizon(toSeconds(now), contact_, commands_);
   const double age = toSeconds(now - guess.stamp());
+  typename ContinuousProblem<NU>::Base* problem = &problem_;
+  if (floor_limited_.isLimited()) problem = &floor_limited_;
   const MpcSolveReport report =
-      solver_.solve(problem_, x0, PolicyGuess<NU>(guess), age, iterations);
+      solver_.solve(*problem, x0, PolicyGuess<NU>(guess), age, iterations);
   if (report.ok()) setPolicy(solver_.solution(), now, out);
   return report;
 }

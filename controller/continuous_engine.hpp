@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "controller/continuous_problem.hpp"
+#include "controller/floor_limited_problem.hpp"
 #include "controller/mpc_engine.hpp"
 #include "solver/continuous_slq.hpp"
 
@@ -22,12 +22,14 @@ class ContinuousEngine final : public MpcEngine {
   MpcPolicy emptyPolicy() const override;
   MpcSolveReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
                        MpcPolicy& out) noexcept override;
+  void setFloorHeld(double torque) noexcept override { floor_limited_.setHeld(torque); }
   void setClock(PhaseClock clock) noexcept override { solver_.setClock(clock); }
   double shift() const noexcept override { return solver_.shift(); }
   void setShift(double shift) noexcept override { solver_.setShift(shift); }
 
  private:
   ContinuousProblem<NU> problem_;
+  FloorLimitedContinuousProblem<NU> floor_limited_;
   ContinuousSlq<kMpcStateDim, NU, CostTerms> solver_;
 };
 

@@ -79,6 +79,10 @@ class ControlLaw {
   /// Force of the environment on the end-effector as measured, for the next plan() [N].
   virtual void setContactForce(const Vector3& force_W) noexcept { (void)force_W; }
 
+  /// What the floor is counted on to hold of the ball's spin about the vertical, for the next
+  /// plan(); without a call, everything [N m].
+  virtual void setFloorHeld(double torque) noexcept { (void)torque; }
+
   /// Has the phases of each plan timed.
   virtual void setClock(PhaseClock clock) noexcept { (void)clock; }
 

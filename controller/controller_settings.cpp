@@ -5,16 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "controller/floor_limit.hpp"
 #include "controller/law_registry.hpp"
 #include "core/error.hpp"
 #include "core/foreign_code.hpp"
 
 namespace ballbot {
 namespace {
-
-/// That the tracker may use: more than a plan, to whose feedback it leaves the rest.
-constexpr double kShareOfFloor = 0.8;
 
 const LawKind& describeKind(ConfigVisitor& v) {
   return lawKinds().choose(
@@ -30,6 +26,11 @@ void describeKnownPayload(ConfigVisitor& v, double& payload) {
                "mass in the robot's hand that estimator and law count on; by "
                "default the one of the robot's own description"),
            payload, {0, 5});
+}
+
+void describeFloor(ConfigVisitor& v, FloorBelief& floor) {
+  v.section(may("floor", "what is believed of the floor under the ball"),
+            [&](ConfigVisitor& in) { floor.describe(in); });
 }
 
 /// Every section of every law, each once.
@@ -65,21 +66,15 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
   describeKnownPayload(reading, out.believed_robot.payload_mass);
   const LawKind& kind = describeKind(reading);
   out.kind_ = in.at("kind");
-  double floor = kUnlimited;
-  describeFloor(reading, floor);
   out.law_ = kind.name;
-  auto law = sayingWhere(out.kind_, kind.name, [&] {
+  out.law = sayingWhere(out.kind_, kind.name, [&] {
     auto read = kind.read(in, out.believed_robot);
     if (!read) throw std::logic_error("its LawKind::read() made nothing");
     return read;
   });
-  if (floor < kUnlimited) {
-    law->takeFloor(floor);
-    out.spin_torque_limit = kShareOfFloor * floor;
-  }
-  out.law = std::move(law);
   ConfigReader tracker = in.child("tracker");
   out.tracker = TrackerConfig::read(tracker, robot);
+  describeFloor(reading, out.floor);
   tracker.finish();
   forEachSection([&](const LawSection& section) { in.raw(section.key.name); });
   in.finish();
@@ -99,7 +94,7 @@ void describeController(ConfigVisitor& v, const RobotParameters& robot) {
   TrackerConfig tracker = TrackerConfig::defaults(robot);
   describeKind(v);
   describeKnownPayload(v, known_payload);
-  double floor = kUnlimited;
+  FloorBelief floor;
   describeFloor(v, floor);
   v.section(must("tracker", "follows the law's plan, at the highest rate"),
             [&](ConfigVisitor& in) { tracker.describe(in); });

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "controller/floor_belief.hpp"
 #include "controller/law_settings.hpp"
 #include "controller/pd_tracker.hpp"
 
@@ -14,15 +15,14 @@ class ConfigVisitor;
 /// The `controller:` section of a scenario, read:
 ///
 ///     known_payload_kg: 0.5
+///     floor: {spin_torque_Nm: 0.4}
 ///     tracker: {...}
 ///     kind: lqr        # | mpc | decoupled, and what was added to lawKinds()
 ///     lqr: {...}
 struct ControllerSettings {
   RobotParameters believed_robot;  ///< with the payload that estimator and law count on
   TrackerConfig tracker;
-  /// Of the wheels on the ball about the vertical: the last word on what is sent to the drives
-  /// [N m].
-  double spin_torque_limit = kUnlimited;
+  FloorBelief floor;
   std::shared_ptr<const LawSettings> law;
 
   /// Sections of other laws than the chosen one are passed over, so that one file can hold several

@@ -12,11 +12,8 @@ DiscreteEngine<NU>::DiscreteEngine(const RobotParameters& robot, const Constrain
                                    const SlqOptions& options)
     : schedule_(std::move(schedule)),
       problem_(robot, constraints, shaping, terminal, knots),
-      solver_(knots, options) {
-  if (constraints.spin_torque_limit < kUnlimited) {
-    floor_limited_ = std::make_unique<FloorLimitedProblem<NU>>(robot, constraints, knots, problem_);
-  }
-}
+      floor_limited_(robot, constraints, knots, problem_),
+      solver_(knots, options) {}
 
 template <int NU>
 MpcPolicy DiscreteEngine<NU>::emptyPolicy() const {
@@ -37,7 +34,7 @@ MpcSolveReport DiscreteEngine<NU>::solve(SimTime now, const MpcState& x0, const 
   problem_.setTasks(*schedule_, toSeconds(now), contact_, commands_);
   const double age = toSeconds(now - guess.stamp());
   const typename WholeBodyProblem<NU>::Base* problem = &problem_;
-  if (floor_limited_) problem = floor_limited_.get();
+  if (floor_limited_.isLimited()) problem = &floor_limited_;
   const MpcSolveReport report =
       solver_.solve(*problem, x0, PolicyGuess<NU>(guess), age, iterations);
   if (report.ok()) setPolicy(solver_.solution(), now, out);

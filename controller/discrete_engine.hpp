@@ -23,6 +23,7 @@ class DiscreteEngine final : public MpcEngine {
   MpcPolicy emptyPolicy() const override;
   MpcSolveReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
                        MpcPolicy& out) noexcept override;
+  void setFloorHeld(double torque) noexcept override { floor_limited_.setHeld(torque); }
   void setClock(PhaseClock clock) noexcept override { solver_.setClock(clock); }
   double shift() const noexcept override { return solver_.shift(); }
   void setShift(double shift) noexcept override { solver_.setShift(shift); }
@@ -30,7 +31,7 @@ class DiscreteEngine final : public MpcEngine {
  private:
   std::shared_ptr<const TaskSchedule> schedule_;
   WholeBodyProblem<NU> problem_;
-  std::unique_ptr<FloorLimitedProblem<NU>> floor_limited_;  ///< null where the floor holds all
+  FloorLimitedProblem<NU> floor_limited_;  ///< the same on a floor that does not hold everything
   RealTimeIteration<kMpcStateDim, NU, CostTerms> solver_;
 };
 

@@ -34,8 +34,28 @@ void FloorLimitedProblem<NU>::approximate(int first, int count, const X* x, cons
   }
 }
 
+template <int NU>
+void FloorLimitedContinuousProblem<NU>::addCostRate(const X& x, const U& u,
+                                                    CostTerms& terms) const noexcept {
+  inner_.addCostRate(x, u, terms);
+  terms.value[kTorqueLimitCost] +=
+      spinTorqueCost(spin_torque_, constraints_, x.template head<kStateDim>(),
+                     u.template head<kWheelCount>(), 1, terms.violation);
+}
+
+template <int NU>
+void FloorLimitedContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
+                                               Expansion& out) const noexcept {
+  inner_.expand(x, u, dx, out);
+  expandSpinTorqueCost<NU>(spin_torque_, constraints_, x.template head<kStateDim>(),
+                           u.template head<kWheelCount>(), 1, out);
+}
+
 template class FloorLimitedProblem<6>;
 template class FloorLimitedProblem<9>;
 template class FloorLimitedProblem<12>;
+template class FloorLimitedContinuousProblem<6>;
+template class FloorLimitedContinuousProblem<9>;
+template class FloorLimitedContinuousProblem<12>;
 
 }  // namespace ballbot

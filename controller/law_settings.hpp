@@ -47,9 +47,6 @@ class LawSettings {
   virtual std::vector<AddedSignal> addedToPlan() const { return {}; }
   /// Its settings have a `wheel_shaping`, to be matched to drives.
   virtual bool shapesWheelTorques() const { return false; }
-  /// What the floor under the ball is counted on to hold of a torque about the vertical [N m];
-  /// called once, before anything else, where the file says so.
-  virtual void takeFloor(double spin_torque) { (void)spin_torque; }
   /// A plan is made every `period`, and acts `latency` later.
   /// @throw InputError if the law cannot work so.
   virtual void requireRates(SimDuration period, SimDuration latency) const {

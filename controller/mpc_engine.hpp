@@ -26,6 +26,9 @@ class MpcEngine {
   void setContact(const ContactSituation& contact) noexcept { contact_ = contact; }
   void setCommands(const GovernedCommands& commands) noexcept { commands_ = commands; }
 
+  /// What the floor is counted on to hold of the ball's spin; kUnlimited without end [N m].
+  virtual void setFloorHeld(double torque) noexcept = 0;
+
   virtual void setClock(PhaseClock clock) noexcept = 0;
 
   /// What the engine carries from one solve to the next.

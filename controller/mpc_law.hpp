@@ -19,6 +19,7 @@ class MpcLaw final : public ControlLaw {
   void setContactForce(const Vector3& force_W) noexcept override {
     planner_.setContactForce(force_W);
   }
+  void setFloorHeld(double torque) noexcept override { planner_.setFloorHeld(torque); }
   void setClock(PhaseClock clock) noexcept override { planner_.setClock(clock); }
   void activatePlan() noexcept override;
   void sample(SimTime now, PolicySample& out) const noexcept override;

@@ -67,7 +67,10 @@ class MpcPlanner {
   /// Force of the environment on the end-effector as measured, for the plans that follow [N].
   void setContactForce(const Vector3& force_W) noexcept { contact_force_W_ = force_W; }
 
-  /// What the planner makes of it; part of the state to be saved.
+  /// What the floor is counted on to hold of the ball's spin; kUnlimited without end [N m].
+  void setFloorHeld(double torque) noexcept { engine_->setFloorHeld(torque); }
+
+  /// What the planner makes of the contact; part of the state to be saved.
   const ContactSupervisor& contact() const noexcept { return supervisor_; }
   void setContact(const ContactSupervisor& supervisor) noexcept { supervisor_ = supervisor; }
 

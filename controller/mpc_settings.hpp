@@ -22,7 +22,6 @@ class MpcSettings : public LawSettings {
   std::optional<QuadraticCost> costAt(SimTime at, const Vector3& arm) const override;
   std::vector<AddedSignal> addedToPlan() const override;
   bool shapesWheelTorques() const override { return true; }
-  void takeFloor(double spin_torque) override { config_.constraints.takeFloor(spin_torque); }
   /// A plan must still count when the next one takes over.
   void requireRates(SimDuration period, SimDuration latency) const override;
 

@@ -27,7 +27,6 @@ Vector3 SpinTorque::within(double limit, const StateVector& x, const Vector3& ta
 }
 
 void SpinTorque::cut(double limit, const StateVector& x, JointVector& torque) const noexcept {
-  if (limit >= kUnlimited) return;
   torque.head<kWheelCount>() = within(limit, x, torque.head<kWheelCount>());
 }
 

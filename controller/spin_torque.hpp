@@ -28,7 +28,7 @@ class SpinTorque {
   /// The torques of the wheels nearest to `tau` with |c . tau| <= limit: what balances the robot
   /// is across c when it stands upright, so it is yaw that gives way.
   Vector3 within(double limit, const StateVector& x, const Vector3& tau) const noexcept;
-  /// The same for what is commanded, where there is a limit.
+  /// The same for what is commanded.
   void cut(double limit, const StateVector& x, JointVector& torque) const noexcept;
 
  private:

@@ -53,7 +53,7 @@ void Lifecycle::attempt(Work&& work) {
 
 void Lifecycle::requirePossible(const std::string& when, SimTime time) const {
   std::string bad_sensor = firstImpossible(participant_.sensors(), time);
-  if (bad_sensor.empty()) bad_sensor = firstNonFinite(participant_.addedSensors());
+  if (bad_sensor.empty()) bad_sensor = firstNonFinite(participant_.added(AddedTo::kSensors));
   if (bad_sensor.empty()) return;
   // Our own plant finds its NaN before it answers.
   throw LostParticipantError(name(), fmt::format("{}: {}: {}", name(), when, bad_sensor));

@@ -51,7 +51,7 @@ class Lifecycle final : public Participant {
   void reset() override;
   const SensorFrame& sensors() const override;
   std::optional<TruthFrame> truth() const override;
-  const AddedSignals& addedSensors() const override { return participant_.addedSensors(); }
+  const AddedSignals& added(AddedTo frame) const override { return participant_.added(frame); }
   /// The participant's state together with time and lifecycle state.
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;

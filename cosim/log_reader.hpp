@@ -101,7 +101,7 @@ struct RunLog {
   std::vector<EstimateFrame> estimates;
   std::vector<PlanFrame> plans;
   std::vector<RecordedCommand> commands;
-  AddedRecord added_sensors, added_to_plan;
+  PerAddedTo<AddedRecord> added;
   std::vector<ballbot_msgs::tick_digests> digests;
   std::int64_t unknown = 0;     ///< events of other channels
   std::string unknown_channel;  ///< the first of them

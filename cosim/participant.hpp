@@ -24,12 +24,9 @@ class Participant : public Stepped {
   /// True state at the current time, for the record; nothing where nobody knows it (real drives).
   virtual std::optional<TruthFrame> truth() const = 0;
 
-  /// Values of sensors that were added to those of the frame, at the current time; the list from
-  /// the beginning on.
-  virtual const AddedSignals& addedSensors() const {
-    static const AddedSignals none;
-    return none;
-  }
+  /// Values beside those of its sensor or truth frame, at the current time; the list from the
+  /// beginning on. Those of the truth are there whenever truth() is.
+  virtual const AddedSignals& added(AddedTo) const { return AddedSignals::none(); }
 
   /// Hash of the complete state, cheap enough for every step.
   virtual std::uint64_t stateDigest() const = 0;

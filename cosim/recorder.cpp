@@ -43,20 +43,20 @@ Recorder::Recorder(RecorderOptions options) : options_(std::move(options)) {
 void Recorder::record(const Tick& tick) {
   beginTick(tick);
   toMessage(tick.sensors, tick.number, sensors_);
-  const bool sensors = take(Channel::kSensors, tick.time, options_.sensors, sensors_);
-  takeAdded(kAddedSensorsChannel, tick, tick.added_sensors, sensors, named_sensors_);
+  takeAdded(AddedTo::kSensors, tick,
+            take(Channel::kSensors, tick.time, options_.sensors, sensors_));
   if (tick.truth) {
     toMessage(*tick.truth, tick.number, truth_);
-    take(Channel::kTruth, tick.time, options_.truth, truth_);
+    takeAdded(AddedTo::kTruth, tick, take(Channel::kTruth, tick.time, options_.truth, truth_));
   }
   if (tick.control.has_estimate) {
     toMessage(tick.control.estimate, tick.number, estimate_);
-    take(Channel::kEstimate, tick.time, options_.estimate, estimate_);
+    takeAdded(AddedTo::kEstimate, tick,
+              take(Channel::kEstimate, tick.time, options_.estimate, estimate_));
   }
   if (tick.control.has_plan) {
     toMessage(tick.control.plan, tick.number, plan_);
-    const bool plan = take(Channel::kPlan, tick.time, options_.plan, plan_);
-    takeAdded(kAddedPlanChannel, tick, tick.added_to_plan, plan, named_plan_);
+    takeAdded(AddedTo::kPlan, tick, take(Channel::kPlan, tick.time, options_.plan, plan_));
   }
   toMessage(tick.control.command, tick.number, tick.time, command_);
   take(Channel::kCommand, tick.time, options_.command, command_);
@@ -84,31 +84,31 @@ bool Recorder::take(Channel channel, SimTime time, SimDuration period, const Mes
   return true;
 }
 
-void Recorder::takeAdded(const char* channel, const Tick& tick, const AddedSignals* added, bool log,
-                         bool& named) {
+void Recorder::takeAdded(AddedTo frame, const Tick& tick, bool log) {
+  const AddedSignals* added = tick.added[frame];
   if (added == nullptr || added->empty()) return;
   digest_.add(added->values.data(), added->values.size() * sizeof(double));
   if (!log) return;
   added_.tick = tick.number;
   added_.sim_time_ns = toNs(tick.time);
   for (const AddedSignal& signal : added->list) {
-    if (named) break;
+    if (named_[frame]) break;
     added_.name = signal.name;
     added_.unit = signal.unit;
     added_.words = signal.words;
     added_.value.clear();
-    writeAdded(channel, tick.time);
+    writeAdded(frame, tick.time);
   }
-  named = true;
+  named_[frame] = true;
   added_.name = added_.unit = added_.words = "";
   added_.value = added->values;
-  writeAdded(channel, tick.time);
+  writeAdded(frame, tick.time);
 }
 
-void Recorder::writeAdded(const char* channel, SimTime time) {
+void Recorder::writeAdded(AddedTo frame, SimTime time) {
   added_.count = static_cast<std::int32_t>(added_.value.size());
   encodeMessage(added_, bytes_);
-  log_->write(time, channel, bytes_);
+  log_->write(time, addedChannelName(frame), bytes_);
 }
 
 void Recorder::beginTick(const Tick& tick) {

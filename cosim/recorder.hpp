@@ -58,9 +58,8 @@ class Recorder {
   /// @return whether it was logged
   template <typename Message>
   bool take(Channel channel, SimTime time, SimDuration period, const Message& message);
-  void takeAdded(const char* channel, const Tick& tick, const AddedSignals* added, bool log,
-                 bool& named);
-  void writeAdded(const char* channel, SimTime time);
+  void takeAdded(AddedTo frame, const Tick& tick, bool log);
+  void writeAdded(AddedTo frame, SimTime time);
   void beginTick(const Tick& tick);
   void addHash(Channel channel, std::uint64_t hash);
   void writeDigests();
@@ -77,7 +76,7 @@ class Recorder {
   ballbot_msgs::plan_report plan_{};
   ballbot_msgs::tick_digests tick_digests_{};
   ballbot_msgs::added_values added_{};
-  bool named_sensors_ = false, named_plan_ = false;  ///< the lists of what was added are written
+  PerAddedTo<bool> named_;  ///< the lists of what was added are written
   Bytes bytes_;
 };
 

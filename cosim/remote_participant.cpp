@@ -187,23 +187,29 @@ void RemoteParticipant::adoptReply(SimTime expected) {
   fromMessage(reply.sensors, sensors_);
   const std::string bad_sensor = firstImpossible(sensors_, expected);
   if (!bad_sensor.empty()) throwUnbelievable(bad_sensor);
-  AddedSignals& added = options_.added_sensors;
-  if (reply.added.size() != added.list.size()) {
-    throwUnbelievable(fmt::format("{} added sensor values, and the configuration has {}",
-                                  reply.added.size(), added.list.size()));
-  }
-  added.values = reply.added;
-  const std::string bad_added = firstNonFinite(added);
-  if (!bad_added.empty()) throwUnbelievable("added sensor value " + bad_added);
+  adoptAdded(AddedTo::kSensors, reply.added);
   state_digest_ = static_cast<std::uint64_t>(reply.state_digest);
   if (reply.truth_count == 1) {
     if (!truth_) truth_.emplace();
     fromMessage(reply.truth[0], *truth_);
     const std::string bad_truth = firstImpossible(*truth_, expected);
     if (!bad_truth.empty()) throwUnbelievable(bad_truth);
+    adoptAdded(AddedTo::kTruth, reply.truth_added);
   } else {
     truth_.reset();
   }
+}
+
+void RemoteParticipant::adoptAdded(AddedTo frame, const std::vector<double>& values) {
+  AddedSignals& added = options_.added[frame];
+  const char* beside = frame == AddedTo::kTruth ? "truth" : "sensors";
+  if (values.size() != added.list.size()) {
+    throwUnbelievable(fmt::format("{} values beside its {}, and the configuration has {}",
+                                  values.size(), beside, added.list.size()));
+  }
+  added.values = values;
+  const std::string bad = firstNonFinite(added);
+  if (!bad.empty()) throwUnbelievable(fmt::format("beside its {}, {}", beside, bad));
 }
 
 void RemoteParticipant::throwUnbelievable(const std::string& what) const {

@@ -21,8 +21,9 @@ struct RemoteOptions {
   /// process may still be starting.
   std::chrono::milliseconds patience{10'000};
   std::chrono::milliseconds first_patience{30'000};
-  /// Of the participant, without values: both ends have them from the same configuration.
-  AddedSignals added_sensors;
+  /// Beside the participant's sensors and truth, without values: both ends have these lists from
+  /// the same configuration.
+  PerAddedTo<AddedSignals> added;
   /// Asked between tries: why the far end is known to be gone ("exited with code 2"), or empty.
   std::function<std::string()> peer_trouble;
   /// Words for a person while the far end is long at work: "plant is busy: setting up the drives".
@@ -55,7 +56,7 @@ class RemoteParticipant final : public Participant {
   void reset() override;
   const SensorFrame& sensors() const override { return sensors_; }
   std::optional<TruthFrame> truth() const override { return truth_; }
-  const AddedSignals& addedSensors() const override { return options_.added_sensors; }
+  const AddedSignals& added(AddedTo frame) const override { return options_.added[frame]; }
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;
   std::uint64_t stateDigest() const override { return state_digest_; }
@@ -73,6 +74,7 @@ class RemoteParticipant final : public Participant {
                 WallDuration longest_wait = RetransmissionTimer::kLongest) const;
   bool replyBy(WallClock::time_point until, WallClock::time_point& now) const;
   void adoptReply(SimTime expected);
+  void adoptAdded(AddedTo frame, const std::vector<double>& values);
   [[noreturn]] void throwUnbelievable(const std::string& what) const;
   void throwUnlessOk() const;
   [[noreturn]] void throwLost(WallDuration waited, int tries) const;

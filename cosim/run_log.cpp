@@ -1,6 +1,7 @@
 // A whole log, typed: what LogReader gives, sorted by channel, and whether it can be believed.
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -48,6 +49,13 @@ bool isTypeOfRun(std::int64_t fingerprint) {
   return std::find(std::begin(known), std::end(known), fingerprint) != std::end(known);
 }
 
+std::optional<AddedTo> addedChannel(const std::string& name) {
+  for (const AddedTo frame : kAllAddedTo) {
+    if (name == addedChannelName(frame)) return frame;
+  }
+  return std::nullopt;
+}
+
 class RunLogReader {
  public:
   explicit RunLogReader(const std::string& path) : reader_(path) {}
@@ -81,10 +89,8 @@ class RunLogReader {
       keep<plan_report>(log_.plans);
     } else if (event_.channel == channelName(Channel::kCommand)) {
       keep<actuator_command>(log_.commands);
-    } else if (event_.channel == kAddedSensorsChannel) {
-      keepAdded(log_.added_sensors);
-    } else if (event_.channel == kAddedPlanChannel) {
-      keepAdded(log_.added_to_plan);
+    } else if (const auto frame = addedChannel(event_.channel)) {
+      keepAdded(log_.added[*frame]);
     } else if (event_.channel == kTickDigestsChannel) {
       keep<tick_digests>(log_.digests);
     } else if (isTypeOfRun(fingerprint(event_.data.data(), event_.data.size()))) {

@@ -66,8 +66,8 @@ bool StepMaster::step() {
 
 void StepMaster::processEvent() {
   control_.has_estimate = control_.has_plan = control_.has_self_assessment = false;
-  const AddedSignals& added = participant_->addedSensors();
-  if (!added.empty()) controller_.takeAddedSensors(added);
+  const AddedSignals& sensors = participant_->added(AddedTo::kSensors);
+  if (!sensors.empty()) controller_.takeAddedSensors(sensors);
   controller_.onSensors(time_, participant_->sensors(), calendar_.dueAt(time_), control_);
   const std::string bad = firstNonFinite(control_.command);
   if (!bad.empty()) {
@@ -82,8 +82,8 @@ void StepMaster::processEvent() {
                   truth,
                   control_,
                   participant_->stateDigest(),
-                  &added,
-                  &controller_.addedToPlan()};
+                  {{&sensors, &participant_->added(AddedTo::kTruth),
+                    &controller_.added(AddedTo::kEstimate), &controller_.added(AddedTo::kPlan)}}};
   if (recorder_ != nullptr) recorder_->record(tick);
   if (observer_ && !observer_(tick)) {
     ended_ = End::kObserver;

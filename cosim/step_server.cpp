@@ -226,8 +226,10 @@ void StepServer::fillReply(const Header& header, std::int8_t status, const std::
   reply_.truth_count = truth ? 1 : 0;
   reply_.truth.resize(truth ? 1 : 0);
   if (truth) toMessage(*truth, 0, reply_.truth[0]);
-  reply_.added = readable ? participant_.addedSensors().values : std::vector<double>();
+  reply_.added = readable ? participant_.added(AddedTo::kSensors).values : std::vector<double>();
   reply_.added_count = static_cast<std::int32_t>(reply_.added.size());
+  reply_.truth_added = truth ? participant_.added(AddedTo::kTruth).values : std::vector<double>();
+  reply_.truth_added_count = static_cast<std::int32_t>(reply_.truth_added.size());
 }
 
 const Bytes* StepServer::answerOutside(const Header& header, std::int8_t status,

@@ -47,11 +47,8 @@ class SteppedController {
   virtual void onSensors(SimTime now, const SensorFrame& sensors, DueTasks due,
                          ControlOutput& out) noexcept = 0;
 
-  /// What it adds to the record of a plan; the list from the beginning on.
-  virtual const AddedSignals& addedToPlan() const {
-    static const AddedSignals none;
-    return none;
-  }
+  /// What it adds to the record of an estimate or a plan; the list from the beginning on.
+  virtual const AddedSignals& added(AddedTo) const { return AddedSignals::none(); }
 
   /// Everything that later output depends on.
   virtual StateBlob saveState() const = 0;

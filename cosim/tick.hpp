@@ -17,9 +17,8 @@ struct Tick {
   const SensorFrame& sensors;
   const std::optional<TruthFrame>& truth;
   const ControlOutput& control;
-  std::uint64_t state_digest;                   ///< of the participant's complete state
-  const AddedSignals* added_sensors = nullptr;  ///< null or empty: none
-  const AddedSignals* added_to_plan = nullptr;  ///< likewise
+  std::uint64_t state_digest;               ///< of the participant's complete state
+  PerAddedTo<const AddedSignals*> added{};  ///< null or empty: none
 };
 
 }  // namespace ballbot

@@ -25,8 +25,8 @@ struct ComplementarySettings : SharedSettings {
   /// A larger difference between odometry and predicted velocity counts as this much [m/s].
   double velocity_innovation_limit_m_per_s = 0.2;
   /// Spin that odometry finds, averaged over 0.1 s, above which it is the ball's and no bias of the
-  /// gyroscope [rad/s]. The default lies beyond any.
-  double spin_limit_rad_per_s = 1e6;
+  /// gyroscope [rad/s].
+  double spin_limit_rad_per_s = 0.05;
 
   void describe(ConfigVisitor& v);
   /// Without those that every estimator has.

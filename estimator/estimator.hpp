@@ -39,6 +39,9 @@ class Estimator {
   /// is.
   virtual StateEstimate estimate(SimTime now) const noexcept = 0;
 
+  /// Whether its estimates have the ball's spin.
+  virtual bool knowsSpin() const noexcept { return false; }
+
   /// Nothing where an estimator keeps no account of its uncertainty, or has not begun to.
   virtual std::optional<SelfAssessment> selfAssessment() const noexcept { return std::nullopt; }
 

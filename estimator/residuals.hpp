@@ -38,6 +38,8 @@ struct IntervalMeasurement {
   /// attitude (smooth_velocity.hpp says why that is not the estimate) [m/s].
   Eigen::Vector2d smooth_v_old_W = Eigen::Vector2d::Zero();
   Eigen::Vector2d smooth_v_new_W = Eigen::Vector2d::Zero();
+  /// Of the wheels on the ball about the vertical, under which a held ball creeps [N m].
+  double spin_load = 0;
   /// The ball's spin is so much of that of the interval before, and noise of one standard deviation
   /// of `spin_sigma` [rad/s].
   double spin_kept = 1, spin_sigma = 1;

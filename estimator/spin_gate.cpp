@@ -12,6 +12,7 @@ constexpr double kMeanGain = 1.0 / 20;
 constexpr double kAnySpin = 20;     // [rad/s]
 constexpr double kLargestOff = 5;   // an increment tells no more than that [standard deviations]
 constexpr double kBeyondCreep = 3;  // [standard deviations]
+constexpr double kLeastOnset = 0.03;  // [rad/s]
 /// The mean of a spin that turns round passes zero; the spin itself is far from it then.
 constexpr double kMomentary = 5;
 
@@ -20,8 +21,12 @@ constexpr double kMomentary = 5;
 void SpinSettings::describe(ConfigVisitor& v) {
   v.boolean(may("enabled", "whether the ball's spin about the vertical is estimated, or is zero"),
             enabled);
-  v.number(may("creep_rad_per_s", "spin of a ball that the floor holds, one standard deviation"),
+  v.number(may("creep_rad_per_s",
+               "spin of a ball that the floor holds and no wheel turns, one standard deviation"),
            creep, {1e-5, 1});
+  v.number(may("creep_rad_per_s_per_Nm",
+               "what the wheels' torque about the vertical adds to it"),
+           creep_per_torque, {0, 10});
   v.number(may("creep_time_s", "how long it creeps alike"), creep_time_s, {1e-3, 100});
   v.number(may("acceleration_rad_per_s2", "of a ball that spins, by wheels and floor"),
            acceleration, {0.1, 1e4});
@@ -35,13 +40,14 @@ void SpinSettings::describe(ConfigVisitor& v) {
            sticks_below, {1e-4, 1});
 }
 
-void SpinGate::expect(double spin, IntervalMeasurement& m) const noexcept {
+void SpinGate::expect(double spin, IntervalMeasurement& m) noexcept {
+  creep_ = settings_.creep + settings_.creep_per_torque * std::abs(m.spin_load);
   if (spinning_) {
     m.spin_kept = 1;
     m.spin_sigma = settings_.acceleration * m.h;
   } else {
     m.spin_kept = std::exp(-m.h / settings_.creep_time_s);
-    m.spin_sigma = settings_.creep * std::sqrt(1 - m.spin_kept * m.spin_kept);
+    m.spin_sigma = creep_ * std::sqrt(1 - m.spin_kept * m.spin_kept);
   }
   m.smooth_spin = m.spin_kept * spin;
 }
@@ -73,7 +79,7 @@ void SpinGate::settle(const std::array<bool, kWheelCount>& used, bool jumped, do
 void SpinGate::follow(double spin) noexcept {
   const bool begins =
       jumped_ || (common_leads_ && (std::abs(common_mean_) > settings_.onset_sigma ||
-                                    std::abs(spin) > kBeyondCreep * settings_.creep));
+                                    std::abs(spin) > std::max(kLeastOnset, kBeyondCreep * creep_)));
   if (spinning_) {
     spin_mean_ += kMeanGain * (spin - spin_mean_);
     spinning_ = std::abs(spin_mean_) > settings_.sticks_below ||
@@ -87,7 +93,7 @@ void SpinGate::follow(double spin) noexcept {
 
 void SpinGate::forget() noexcept {
   spinning_ = jumped_ = common_leads_ = false;
-  common_mean_ = spin_mean_ = 0;
+  common_mean_ = spin_mean_ = creep_ = 0;
 }
 
 }  // namespace ballbot

@@ -8,9 +8,11 @@ class ConfigVisitor;
 
 /// How the filter takes the ball's spin about the vertical.
 struct SpinSettings {
-  bool enabled = false;
-  /// Of a ball that the floor holds: what friction lets creep, and for how long [rad/s], [s].
-  double creep = 0.01;
+  bool enabled = true;
+  /// Of a ball that the floor holds: what friction lets creep, without the wheels' torque about the
+  /// vertical [rad/s] and by it [rad/s per N m]; and for how long [s].
+  double creep = 0.001;
+  double creep_per_torque = 0.05;
   double creep_time_s = 0.3;
   /// Of a ball that spins, what wheels and floor do to it, new in every interval [rad/s^2].
   double acceleration = 40;
@@ -36,7 +38,7 @@ class SpinGate {
   explicit SpinGate(const SpinSettings& settings) : settings_(settings) {}
 
   /// Writes into `m` how the spin goes on over its interval. @param spin at its begin [rad/s]
-  void expect(double spin, IntervalMeasurement& m) const noexcept;
+  void expect(double spin, IntervalMeasurement& m) noexcept;
   /// What all wheels have in common is more than was expected, and more than any wheel alone.
   /// @param common  common part of the wheels' residuals, @param off  the residuals themselves
   /// [standard deviations], @param use  which of them count
@@ -65,6 +67,7 @@ class SpinGate {
     visit(self.used_);
     visit(self.common_mean_);
     visit(self.spin_mean_);
+    visit(self.creep_);
   }
 
  private:
@@ -75,6 +78,7 @@ class SpinGate {
   std::array<bool, kWheelCount> used_{};
   double common_mean_ = 0;  ///< of `used_`, while it sticks [standard deviations]
   double spin_mean_ = 0;    ///< while it spins [rad/s]
+  double creep_ = 0;        ///< one standard deviation, expected of the last interval [rad/s]
 };
 
 }  // namespace ballbot

@@ -17,6 +17,7 @@ constexpr std::uint32_t kBlobVersion = 4;
 constexpr SimDuration kShortestPeriod{100'000};
 constexpr double kLargestYawSigma = 0.1;  // [rad]
 constexpr double kSpinInMotion = 1.0;     // [rad/s]
+constexpr double kSpinLoadTime_s = 0.01;  // over which the load under a ball is averaged
 
 /// Together with a spin of which nothing else tells, one standard deviation [rad/s].
 template <int kDim>
@@ -41,6 +42,9 @@ BasicTwoStateFilter<kDim>::BasicTwoStateFilter(const RobotParameters& robot,
       gyro_gate_(settings.gate.gyro_jump_rad_per_s),
       poses_(settings.pose, settings.initial.yaw),
       balance_(robot, settings.balance) {
+  for (int i = 0; i < kWheelCount; ++i) {
+    scaled_axles_.row(i) = -robot.ball.radius / robot.wheels.radius * robot.wheelAxle(i);
+  }
   // The filter is linear in yaw and would wander off in one that may be anywhere; turning about the
   // vertical changes nothing it measures, so it does not need to know.
   settings_.initial.yaw = std::min(settings_.initial.yaw, kLargestYawSigma);
@@ -195,6 +199,10 @@ void BasicTwoStateFilter<kDim>::stepTo(SimTime time, const SensorFrame* imu) noe
   wheel_angle_ = angle;
   wheel_angle_known_ = known;
 
+  if constexpr (kSpins) {
+    if (imu != nullptr) followSpinLoad(m.h, imu->joint_torque);
+    m.spin_load = spin_load_;
+  }
   filter_.step(m, counts_);
   time_ = time;
   if (m.has_gyro && known) {
@@ -203,6 +211,15 @@ void BasicTwoStateFilter<kDim>::stepTo(SimTime time, const SensorFrame* imu) noe
     balance_.interrupt();
   }
   followYaw();
+}
+
+template <int kDim>
+void BasicTwoStateFilter<kDim>::followSpinLoad(double h, const JointVector& joint_torque) noexcept {
+  const Vector3 wheels = joint_torque.head<kWheelCount>();
+  if (!wheels.allFinite()) return;
+  const Vector3 up_B = filter_.state().R_WB.row(2);
+  const double load = up_B.dot(scaled_axles_.transpose() * wheels);
+  spin_load_ += std::min(1.0, h / kSpinLoadTime_s) * (load - spin_load_);
 }
 
 template <int kDim>

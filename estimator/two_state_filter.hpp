@@ -27,6 +27,7 @@ class BasicTwoStateFilter final : public Estimator {
 
   bool update(const SensorFrame& frame, bool at_rest) noexcept override;
   StateEstimate estimate(SimTime now) const noexcept override;
+  bool knowsSpin() const noexcept override { return kSpins; }
   std::optional<SelfAssessment> selfAssessment() const noexcept override;
   RejectionCounts rejections() const noexcept override { return counts_; }
   StateBlob saveState() const override;
@@ -55,6 +56,7 @@ class BasicTwoStateFilter final : public Estimator {
     visit(self.imu_period_);
     visit(self.wheel_angle_);
     visit(self.wheel_angle_known_);
+    if constexpr (kSpins) visit(self.spin_load_);
   }
 
   /// The state at its own time, the last inertial sample, with its covariance.
@@ -75,11 +77,13 @@ class BasicTwoStateFilter final : public Estimator {
   void leapTo(SimTime time) noexcept;
   void stepTo(SimTime time, const SensorFrame* imu) noexcept;
   void followYaw() noexcept;
+  void followSpinLoad(double h, const JointVector& joint_torque) noexcept;
 
   static constexpr bool kSpins = kDim > kTanSpin;
 
   TwoStateSettings settings_;
-  double gravity_;  ///< [m/s^2]
+  double gravity_;        ///< [m/s^2]
+  Matrix3 scaled_axles_;  ///< -(r/r_w) D: torque on the ball, in B, is its transpose times theirs
   FrameOrder order_;
   ArmSensing arm_;
   JointHistory joints_;
@@ -100,6 +104,7 @@ class BasicTwoStateFilter final : public Estimator {
   SimDuration imu_period_{2'500'000};      ///< until rest has shown another
   Vector3 wheel_angle_ = Vector3::Zero();  ///< at time_ [rad]
   bool wheel_angle_known_ = false;
+  double spin_load_ = 0;  ///< of the wheels on the ball about the vertical, smoothed [N m]
 };
 /// The ball does not spin.
 using TwoStateFilter = BasicTwoStateFilter<kTangentDim>;

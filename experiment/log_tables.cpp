@@ -80,12 +80,14 @@ std::string costColumn(CostTerm term) { return std::string("cost_") + costTermNa
 std::vector<LogTable> logTables(const RunLog& log) {
   std::vector<LogTable> tables;
   addTable("sensors", log.sensors, tables);
-  if (!log.sensors.empty()) addColumns(log.added_sensors, tables.back());
+  if (!log.sensors.empty()) addColumns(log.added[AddedTo::kSensors], tables.back());
   addTable("truth", log.truth, tables);
+  if (!log.truth.empty()) addColumns(log.added[AddedTo::kTruth], tables.back());
   addTable("estimate", log.estimates, tables);
+  if (!log.estimates.empty()) addColumns(log.added[AddedTo::kEstimate], tables.back());
   addTable("command", log.commands, tables);
   addTable("plan", log.plans, tables);
-  if (!log.plans.empty()) addColumns(log.added_to_plan, tables.back());
+  if (!log.plans.empty()) addColumns(log.added[AddedTo::kPlan], tables.back());
   return tables;
 }
 

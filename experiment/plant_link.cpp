@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "cosim/lifecycle.hpp"
 #include "experiment/plant_factory.hpp"
+#include "plant/floor_truth.hpp"
 
 namespace ballbot {
 namespace {
@@ -73,7 +74,10 @@ void PlantLink::start() {
   // A plant that is served elsewhere runs already; one that we start needs time to set itself up.
   remote.first_patience =
       child_ ? std::max(options_.patience, std::chrono::milliseconds(30'000)) : options_.patience;
-  remote.added_sensors = config_.plant.plant.added_sensors.signals();
+  remote.added[AddedTo::kSensors] = config_.plant.plant.added_sensors.signals();
+  if (!config_.plant.coupling) {
+    remote.added[AddedTo::kTruth] = FloorTruth(config_.plant.plant).signals();
+  }
   remote.stop = options_.stop;
   remote.say = options_.say;
   if (child_) {

@@ -12,7 +12,7 @@ namespace ballbot {
 namespace {
 
 constexpr const char* kBlobKind = "controller";
-constexpr std::uint32_t kBlobVersion = 7;
+constexpr std::uint32_t kBlobVersion = 8;
 
 }  // namespace
 
@@ -24,9 +24,16 @@ RobotController::RobotController(const RunConfig& config, EventCalendar& calenda
       law_(config.controller.makeLaw()),
       tracker_(std::make_unique<PdTracker>(config.controller.tracker)),
       spin_torque_(config.believedRobot()),
-      spin_torque_limit_(config.controller.spin_torque_limit) {
-  added_to_plan_.list = config.controller.law->addedToPlan();
-  added_to_plan_.values.assign(added_to_plan_.list.size(), 0.0);
+      command_share_(config.controller.floor.command_share),
+      state_(FloorHold(config.believedRobot(), config.controller.floor)) {
+  added_[AddedTo::kPlan].list = config.controller.law->addedToPlan();
+  if (sensing_.estimator().knowsSpin()) {
+    added_[AddedTo::kEstimate].list = {
+        {"ball_spin_rate", "rad/s", "estimated spin of the ball about the vertical"},
+        {"sigma_ball_spin_rate", "rad/s", "one standard deviation of ball_spin_rate"},
+        {"floor_spin_torque_held", "N m", "what the floor is counted on to hold of that spin"}};
+  }
+  for (AddedSignals& added : added_.of) added.values.assign(added.list.size(), 0.0);
   const Rates& rates = config.scenario.rates;
   // Within one event: estimate, then plan, then track.
   estimator_task_ = calendar.addTask("estimator", rates.estimator, {}, "rates.estimator_period_us");
@@ -39,18 +46,7 @@ RobotController::RobotController(const RunConfig& config, EventCalendar& calenda
 
 void RobotController::onSensors(SimTime now, const SensorFrame& sensors, DueTasks due,
                                 ControlOutput& out) noexcept {
-  if (due.has(estimator_task_)) {
-    // Frames in between are not its business: so the log, which keeps one frame per period of the
-    // estimator, holds all that it ever saw.
-    sensing_.update(sensors);
-    law_->setContactForce(sensing_.contactForce());
-    out.has_estimate = true;
-    sensing_.write(now, out.estimate);
-    if (const auto own = sensing_.estimator().selfAssessment()) {
-      out.has_self_assessment = true;
-      out.self_assessment = *own;
-    }
-  }
+  if (due.has(estimator_task_)) estimate(now, sensors, out);
   // A plan that has become old enough acts before a new one is begun.
   if (state_.plan_pending && now >= state_.pending_since + plan_latency_) {
     law_->activatePlan();
@@ -59,6 +55,25 @@ void RobotController::onSensors(SimTime now, const SensorFrame& sensors, DueTask
   }
   if ((due.has(planner_task_) || state_.plan_now) && !state_.plan_pending) plan(now, sensors, out);
   if (due.has(tracker_task_)) track(now, sensors, out);
+}
+
+void RobotController::estimate(SimTime now, const SensorFrame& sensors, ControlOutput& out) {
+  // Frames in between are not its business: so the log, which keeps one frame per period of the
+  // estimator, holds all that it ever saw.
+  sensing_.update(sensors);
+  law_->setContactForce(sensing_.contactForce());
+  out.has_estimate = true;
+  const StateEstimate e = sensing_.write(now, out.estimate);
+  if (const auto own = sensing_.estimator().selfAssessment()) {
+    out.has_self_assessment = true;
+    out.self_assessment = *own;
+  }
+  if (now >= release_ && sensing_.estimator().knowsSpin()) {
+    state_.floor.update(now, e.x, e.spin_rate, sensors.joint_torque, sensors.joint_velocity);
+  }
+  law_->setFloorHeld(state_.floor.held());
+  AddedSignals& added = added_[AddedTo::kEstimate];
+  if (!added.empty()) added.values = {e.spin_rate, e.spin_rate_sigma, state_.floor.held()};
 }
 
 void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutput& out) {
@@ -88,8 +103,8 @@ void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutpu
   out.plan.fallback = report.fallback;
   out.plan.predicted_decrease = report.predicted_decrease;
   out.plan.regularisation = report.regularisation;
-  std::copy_n(report.terms.added.begin(), added_to_plan_.values.size(),
-              added_to_plan_.values.begin());
+  std::vector<double>& added = added_[AddedTo::kPlan].values;
+  std::copy_n(report.terms.added.begin(), added.size(), added.begin());
   static_assert(std::tuple_size<decltype(out.plan.cost_terms)>::value == kCostTermCount);
   std::copy(report.terms.value.begin(), report.terms.value.end(), out.plan.cost_terms.begin());
   if (plan_latency_ == SimDuration::zero() || !state_.has_policy) {
@@ -117,7 +132,9 @@ void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutp
       ++state_.ticks_not_finite;
       break;
   }
-  spin_torque_.cut(spin_torque_limit_, x, out.command.torque);
+  if (const double held = state_.floor.held(); held < kUnlimited) {
+    spin_torque_.cut(command_share_ * held, x, out.command.torque);
+  }
   if (now >= release_) {
     ++state_.ticks_released;
     if (policy.from_stand_in) ++state_.ticks_on_fallback;

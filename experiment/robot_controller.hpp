@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "controller/control_law.hpp"
+#include "controller/floor_hold.hpp"
 #include "controller/pd_tracker.hpp"
-#include "controller/spin_torque.hpp"
 #include "cosim/schedule.hpp"
 #include "cosim/stepped_controller.hpp"
 #include "experiment/robot_sensing.hpp"
@@ -28,7 +28,7 @@ class RobotController final : public SteppedController {
 
   void onSensors(SimTime now, const SensorFrame& sensors, DueTasks due,
                  ControlOutput& out) noexcept override;
-  const AddedSignals& addedToPlan() const override { return added_to_plan_; }
+  const AddedSignals& added(AddedTo frame) const override { return added_[frame]; }
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;
   /// @throw InputError if the estimator is another kind.
@@ -44,7 +44,10 @@ class RobotController final : public SteppedController {
  private:
   /// What goes on from one event to the next, but for the parts that keep their own.
   struct State {
+    explicit State(const FloorHold& at_first) : floor(at_first) {}
+
     PolicySample policy;
+    FloorHold floor;
     FeedforwardShare feedforward_share;
     bool plan_pending = false;
     bool has_policy = false;
@@ -70,11 +73,13 @@ class RobotController final : public SteppedController {
       visit(self.ticks_released);
       visit(self.ticks_on_fallback);
       visit(self.feedforward_share);
+      visit(self.floor);
     }
   };
   /// What is saved.
   struct Whole;
   void restore(const StateBlob& blob, bool with_law);
+  void estimate(SimTime now, const SensorFrame& sensors, ControlOutput& out);
   void plan(SimTime now, const SensorFrame& sensors, ControlOutput& out);
   void track(SimTime now, const SensorFrame& sensors, ControlOutput& out);
 
@@ -84,10 +89,10 @@ class RobotController final : public SteppedController {
   std::unique_ptr<ControlLaw> law_;
   std::unique_ptr<PdTracker> tracker_;
   SpinTorque spin_torque_;
-  double spin_torque_limit_;  ///< [N m]
+  double command_share_;  ///< of what the floor is counted on to hold
   TaskId tracker_task_, estimator_task_, planner_task_;
 
-  AddedSignals added_to_plan_;
+  PerAddedTo<AddedSignals> added_;
   State state_;
 
   PhaseClock wall_clock_ns_ = nullptr;

@@ -23,13 +23,14 @@ void RobotSensing::update(const SensorFrame& frame) noexcept {
   }
 }
 
-void RobotSensing::write(SimTime now, EstimateFrame& out) const noexcept {
+StateEstimate RobotSensing::write(SimTime now, EstimateFrame& out) const noexcept {
   const StateEstimate e = estimator_->estimate(now);
   out.time = now;
   out.state = e.x;
   out.sigma = e.sigma;
   out.contact_force_W = contact_force_.force();
   out.aligned = e.aligned;
+  return e;
 }
 
 void RobotSensing::restore(const State& state) {

@@ -27,7 +27,7 @@ class RobotSensing {
   /// Environment on the end-effector, in W [N]; zero while held.
   const Vector3& contactForce() const noexcept { return contact_force_.force(); }
   /// As it goes on record; the tick is the recorder's.
-  void write(SimTime now, EstimateFrame& out) const noexcept;
+  StateEstimate write(SimTime now, EstimateFrame& out) const noexcept;
 
   /// What goes on from one frame to the next; the estimator's part sealed by itself.
   struct State {

@@ -104,8 +104,9 @@ bool passes(const RunResult& result, const std::vector<MetricLimit>& requirement
 
 /// Which of the costs that were added to a plan is not finite, in words; empty: none.
 std::string notFiniteIn(const Tick& tick) {
-  if (!tick.control.has_plan || tick.added_to_plan == nullptr) return "";
-  const AddedSignals& added = *tick.added_to_plan;
+  const AddedSignals* plan = tick.added[AddedTo::kPlan];
+  if (!tick.control.has_plan || plan == nullptr) return "";
+  const AddedSignals& added = *plan;
   for (std::size_t i = 0; i < added.values.size(); ++i) {
     if (!std::isfinite(added.values[i])) return added.list[i].words + " is not finite";
   }

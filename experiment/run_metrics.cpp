@@ -1,5 +1,7 @@
 #include "experiment/run_metrics.hpp"
 
+#include "plant/floor_truth.hpp"
+
 namespace ballbot {
 namespace {
 
@@ -40,7 +42,8 @@ RunMetrics::RunMetrics(const RunConfig& config)
       margins_(limitsOf(config), config.scenario.release),
       steps_(reference_->eeSteps(), config.scenario.release, kSimStart + config.scenario.duration),
       contact_(contactMetrics(config)),
-      estimation_(config.scenario.release) {}
+      estimation_(config.scenario.release),
+      spin_(config.scenario.release) {}
 
 void RunMetrics::add(const Tick& tick) {
   if (!tick.truth) return;
@@ -53,6 +56,11 @@ void RunMetrics::add(const Tick& tick) {
   tracking_.add(truth, place);
   steps_.add(truth, reference_->eePose(truth.time));
   contact_.add(truth, control.plan.contact_asked_W, control.estimate.contact_force_W);
+  if (const AddedSignals* floor = tick.added[AddedTo::kTruth];
+      floor != nullptr && !floor->empty()) {
+    const std::vector<double>& v = floor->values;
+    spin_.add(truth.time, v[FloorTruth::kSpinRate], v[FloorTruth::kTorque], v[FloorTruth::kHeld]);
+  }
   if (!control.has_estimate) return;
   estimation_.add(truth, control.estimate.state);
   if (control.has_self_assessment) estimation_.addConsistency(control.self_assessment);
@@ -66,14 +74,16 @@ std::map<std::string, double> RunMetrics::values() const {
   all.merge(steps_.values());
   all.merge(contact_.values());
   all.merge(estimation_.values());
+  all.merge(spin_.values());
   return all;
 }
 
 std::vector<std::string> RunMetrics::names() {
   std::vector<std::string> all;
-  for (const auto& names : {BalanceMetrics::names(), PushMetrics::names(), EeStepMetrics::names(),
-                            ContactMetrics::names(), TrackingMetrics::names(),
-                            LimitMargins::names(), EstimationErrors::names()}) {
+  for (const auto& names :
+       {BalanceMetrics::names(), PushMetrics::names(), EeStepMetrics::names(),
+        ContactMetrics::names(), TrackingMetrics::names(), LimitMargins::names(),
+        EstimationErrors::names(), SpinMetrics::names()}) {
     all.insert(all.end(), names.begin(), names.end());
   }
   return all;

@@ -13,6 +13,7 @@
 #include "metrics/estimation_errors.hpp"
 #include "metrics/limit_margins.hpp"
 #include "metrics/push_metrics.hpp"
+#include "metrics/spin_metrics.hpp"
 #include "metrics/tracking_metrics.hpp"
 
 namespace ballbot {
@@ -46,6 +47,7 @@ class RunMetrics {
   EeStepMetrics steps_;
   ContactMetrics contact_;
   EstimationErrors estimation_;
+  SpinMetrics spin_;
 };
 
 }  // namespace ballbot

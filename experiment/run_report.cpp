@@ -10,8 +10,10 @@
 #include "core/angle.hpp"
 #include "core/key_unit.hpp"
 #include "cosim/log_reader.hpp"
+#include "experiment/axes_builder.hpp"
 #include "experiment/build_info.hpp"
 #include "experiment/contact_report.hpp"
+#include "experiment/floor_report.hpp"
 #include "experiment/log_tables.hpp"
 #include "experiment/rejection_metrics.hpp"
 #include "experiment/run_replay.hpp"
@@ -26,43 +28,6 @@ namespace {
 
 constexpr const char* kWheels[] = {"wheel1", "wheel2", "wheel3"};
 constexpr const char* kArms[] = {"arm1", "arm2", "arm3"};
-
-/// Adds lines from the columns of recorded tables to one pair of axes.
-class AxesBuilder {
- public:
-  AxesBuilder(const std::vector<LogTable>& tables, std::string quantity, std::string unit,
-              double scale = 1)
-      : tables_(tables), scale_(scale) {
-    axes_.quantity = std::move(quantity);
-    axes_.unit = std::move(unit);
-  }
-  AxesBuilder& line(const std::string& table, const std::string& column, const std::string& name,
-                    SeriesStyle style, int channel) {
-    if (const LogTable* t = findTable(tables_, table)) {
-      PlotSeries series{name, style, channel, t->column("time_s"), t->column(column)};
-      for (double& v : series.values) v *= scale_;
-      axes_.series.push_back(std::move(series));
-    }
-    return *this;
-  }
-  AxesBuilder& limit(const std::string& name, double value) {
-    axes_.limits.push_back({name, value});
-    axes_.limits.push_back({"", -value});
-    return *this;
-  }
-  const PlotAxes& axes() const { return axes_; }
-
- private:
-  const std::vector<LogTable>& tables_;
-  double scale_;
-  PlotAxes axes_;
-};
-
-/// A column of the truth and the same of the estimate.
-void addBoth(AxesBuilder& axes, const std::string& column, const std::string& name, int channel) {
-  axes.line("truth", column, name + " true", SeriesStyle::kMeasured, channel)
-      .line("estimate", column, name + " estimated", SeriesStyle::kEstimated, channel);
-}
 
 /// Dashed, where the tasks ask for a place of the ball.
 void addBallReference(const LogTable& truth, const MotionReference& reference, PlotGroup& group) {
@@ -209,11 +174,11 @@ constexpr int kChannels = 6;  // colours of a pair of axes
 
 /// Sensors beside those of every robot, one pair of axes for each unit.
 std::optional<PlotGroup> addedSensorGroup(const RunLog& log, const std::vector<LogTable>& tables) {
-  if (log.added_sensors.list.empty()) return std::nullopt;
+  if (log.added[AddedTo::kSensors].list.empty()) return std::nullopt;
   PlotGroup group{"Added sensors", "", {}, {}};
   std::map<std::string, AxesBuilder> by_unit;
   std::map<std::string, int> channels;
-  for (const AddedSignal& signal : log.added_sensors.list) {
+  for (const AddedSignal& signal : log.added[AddedTo::kSensors].list) {
     auto& axes = by_unit.try_emplace(signal.unit, tables, "value", signal.unit).first->second;
     axes.line("sensors", signal.name, signal.name, SeriesStyle::kMeasured,
               channels[signal.unit]++ % kChannels);
@@ -292,6 +257,7 @@ void writeRunReport(const RunConfig& config, const RunResult& result, const RunF
   addVerdicts(result, data);
   data.groups = {ballGroup(tables, *reference), baseGroup(tables), handGroup(log, *reference),
                  torqueGroup(tables, robot), armGroup(tables)};
+  if (auto floor = floorGroup(tables)) data.groups.push_back(std::move(*floor));
   if (auto plans = planGroup(tables)) data.groups.push_back(std::move(*plans));
   if (auto added = addedSensorGroup(log, tables)) data.groups.push_back(std::move(*added));
   const SurroundingsParameters& surroundings = config.plant.plant.surroundings;

@@ -106,8 +106,8 @@ std::optional<TruthFrame> CoupledPlant::truth() const {
   return plan_.has_truth ? std::optional<TruthFrame>(truth_) : std::nullopt;
 }
 
-const AddedSignals& CoupledPlant::addedSensors() const {
-  return native_ == nullptr ? Participant::addedSensors() : native_->addedSensors();
+const AddedSignals& CoupledPlant::added(AddedTo frame) const {
+  return native_ == nullptr ? AddedSignals::none() : native_->added(frame);
 }
 
 struct CoupledPlant::State {

@@ -33,7 +33,7 @@ class CoupledPlant final : public Participant {
   void reset() override;
   const SensorFrame& sensors() const override { return sensors_; }
   std::optional<TruthFrame> truth() const override;
-  const AddedSignals& addedSensors() const override;
+  const AddedSignals& added(AddedTo frame) const override;
   StateBlob saveState() const override;
   /// If one of the FMUs refuses its part, those before it have changed: reset or restore again.
   void restoreState(const StateBlob& blob) override;

@@ -25,7 +25,7 @@ class NativePlantModel final : public SteppedModel {
   StateBlob saveState() const override { return plant_.saveState(); }
   void restoreState(const StateBlob& blob) override;
   const std::vector<double>& outputs() const override { return outputs_; }
-  const AddedSignals& addedSensors() const { return plant_.addedSensors(); }
+  const AddedSignals& added(AddedTo frame) const { return plant_.added(frame); }
   std::uint64_t stateDigest() const override { return plant_.stateDigest(); }
 
  private:

@@ -223,9 +223,12 @@ Plant& PlantFmu::plant() {
 void PlantFmu::refresh() {
   const FmuVariables::Groups& g = variables_.groups();
   readSignals(sensorSignals(), plant().sensors(), &values_[g.sensors]);
-  const std::vector<double>& added = plant().addedSensors().values;
-  std::copy(added.begin(), added.end(), values_.begin() + g.added_sensors);
+  const std::vector<double>& sensors = plant().added(AddedTo::kSensors).values;
+  std::copy(sensors.begin(), sensors.end(), values_.begin() + g.added_sensors);
   readSignals(truthSignals(), plant().truth(), &values_[g.truth]);
+  const std::vector<double>& floor = plant().added(AddedTo::kTruth).values;
+  std::copy(floor.begin(), floor.end(),
+            values_.begin() + g.floor_truth);  // 0 of one that holds all
   stale_ = false;
 }
 

@@ -5,6 +5,7 @@
 #include "fmi/units.hpp"
 #include "model/signal_table.hpp"
 #include "plant/added_sensors.hpp"
+#include "plant/floor_truth.hpp"
 
 namespace ballbot {
 namespace {
@@ -19,6 +20,15 @@ FmuVariable variableOf(const std::string& prefix, const Signal<Frame>& signal, V
   v.unit = unitName(signal.unit, v.type == VariableType::kReal);
   v.description = signal.description;
   v.size = signal.size;
+  return v;
+}
+
+FmuVariable variableOf(const std::string& prefix, const AddedSignal& s, VariableRole role) {
+  FmuVariable v;
+  v.name = prefix + s.name;
+  v.role = role;
+  v.unit = unitName(s.unit, true);
+  v.description = s.words;
   return v;
 }
 
@@ -41,15 +51,13 @@ FmuVariables::FmuVariables(const ConfigNode& scenario) {
   for (const auto& s : sensorSignals()) add(variableOf("sensors.", s, VariableRole::kOutput));
   groups_.added_sensors = static_cast<ValueReference>(owner_.size());
   for (const AddedSignal& s : addedSensorsOf(scenario).signals().list) {
-    FmuVariable v;
-    v.name = "sensors." + s.name;
-    v.role = VariableRole::kOutput;
-    v.unit = unitName(s.unit, true);
-    v.description = s.words;
-    add(v);
+    add(variableOf("sensors.", s, VariableRole::kOutput));
   }
   groups_.truth = static_cast<ValueReference>(owner_.size());
   for (const auto& s : truthSignals()) add(variableOf("truth.", s, VariableRole::kLocal));
+  groups_.floor_truth = static_cast<ValueReference>(owner_.size());
+  for (const AddedSignal& s : FloorTruth::list())
+    add(variableOf("truth.", s, VariableRole::kLocal));
 
   FmuVariable digest;
   digest.name = "state_digest";

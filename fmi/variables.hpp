@@ -46,7 +46,8 @@ class FmuVariables {
   }
   /// First element of each group of variables, in which the rows follow one another.
   struct Groups {
-    ValueReference time, command, forces, sensors, added_sensors, truth, digest, parameters;
+    ValueReference time, command, forces, sensors, added_sensors, truth, floor_truth, digest,
+        parameters;
   };
   const Groups& groups() const { return groups_; }
   /// Values of all elements before anything was set.

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 
+#include "model/added_signals.hpp"
+
 namespace ballbot {
 
 /// What is recorded of a run, in the order in which it happens within an event.
@@ -22,9 +24,12 @@ constexpr std::array<const char*, kChannelCount> kChannelNames = {
     "SENSOR_FRAME", "TRUTH_FRAME",      "STATE_ESTIMATE",
     "PLAN_REPORT",  "ACTUATOR_COMMAND", "STATE_DIGEST"};
 constexpr const char* kTickDigestsChannel = "TICK_DIGESTS";
-// Of what was added to the frames of two of them (docs/adding.md).
-constexpr const char* kAddedSensorsChannel = "ADDED_SENSORS";
-constexpr const char* kAddedPlanChannel = "ADDED_PLAN";
+/// Of what was added to the frames (docs/adding.md), in the order of AddedTo.
+constexpr std::array<const char*, kAllAddedTo.size()> kAddedChannelNames = {
+    "ADDED_SENSORS", "ADDED_TRUTH", "ADDED_ESTIMATE", "ADDED_PLAN"};
+constexpr const char* addedChannelName(AddedTo frame) {
+  return kAddedChannelNames[static_cast<std::size_t>(frame)];
+}
 
 constexpr const char* channelName(Channel channel) {
   return kChannelNames[static_cast<std::size_t>(channel)];

@@ -95,6 +95,7 @@ bool lengthsHold<ballbot_msgs::step_reply>(const std::uint8_t* data, std::size_t
       .skip(8 + 8 + innerBytes<ballbot_msgs::sensor_frame>())  // time, digest
       .counted(innerBytes<ballbot_msgs::truth_frame>())
       .counted(8)   // added
+      .counted(8)   // truth_added
       .skip(4 + 4)  // blob_size, blob_offset
       .counted(1)   // chunk
       .ends();

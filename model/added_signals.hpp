@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,24 @@ struct AddedSignals {
   std::vector<double> values;  ///< one for each of the list
 
   bool empty() const { return list.empty(); }
+  static const AddedSignals& none() {
+    static const AddedSignals nothing;
+    return nothing;
+  }
+};
+
+/// The frames to which values can be added, in the order in which they come to be within an event.
+enum class AddedTo : std::size_t { kSensors, kTruth, kEstimate, kPlan };
+constexpr std::array<AddedTo, 4> kAllAddedTo = {AddedTo::kSensors, AddedTo::kTruth,
+                                                AddedTo::kEstimate, AddedTo::kPlan};
+
+/// One of each.
+template <typename T>
+struct PerAddedTo {
+  std::array<T, kAllAddedTo.size()> of{};
+
+  T& operator[](AddedTo frame) { return of[static_cast<std::size_t>(frame)]; }
+  const T& operator[](AddedTo frame) const { return of[static_cast<std::size_t>(frame)]; }
 };
 
 }  // namespace ballbot

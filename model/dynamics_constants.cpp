@@ -34,6 +34,7 @@ DynamicsConstants::DynamicsConstants(const RobotParameters& robot) {
   ratio = robot.ball.radius / robot.wheels.radius;
   for (int i = 0; i < kWheelCount; ++i) axles.row(i) = robot.wheelAxle(i).transpose();
   spin_inertia = robot.wheels.spin_inertia * axles.transpose() * axles;
+  ball_inertia = robot.ball.inertia;
 }
 
 }  // namespace ballbot

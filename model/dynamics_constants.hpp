@@ -34,6 +34,7 @@ struct DynamicsConstants {
   double ratio;          ///< rho = r / r_w
   Matrix3 axles;         ///< D, rows d_i
   Matrix3 spin_inertia;  ///< G = I_w sum of d_i d_i^T [kg m^2]
+  double ball_inertia;   ///< I_ball, about any axis [kg m^2]
 };
 
 }  // namespace ballbot

@@ -7,10 +7,12 @@ namespace ballbot {
 
 /// M(q)^-1, what turns generalised forces into accelerations. A rigid arm has no equations of
 /// motion: its joints do not accelerate, and what acts on them does nothing to base and ball.
-template <typename Scalar>
+template <typename Scalar, bool kSpin = false>
 class InverseMass {
  public:
-  InverseMass(const DynamicsConstants& constants, const NewtonEuler<Scalar>& pass)
+  using Pass = NewtonEuler<Scalar, kSpin>;
+
+  InverseMass(const DynamicsConstants& constants, const Pass& pass)
       : rigid_arm_(constants.rigid_arm), factors_(ofWhatMoves(pass.massMatrix(), rigid_arm_)) {}
 
   /// x := M^-1 x.
@@ -22,18 +24,18 @@ class InverseMass {
   }
 
  private:
-  using Matrix = Eigen::Matrix<Scalar, kVelocityDim, kVelocityDim>;
+  using Matrix = typename Pass::Mass;
 
   static Matrix ofWhatMoves(Matrix M, bool rigid_arm) {
     if (!rigid_arm) return M;
-    M.template rightCols<kArmJointCount>().setConstant(Scalar(0));
-    M.template bottomRows<kArmJointCount>().setConstant(Scalar(0));
+    M.template middleCols<kArmJointCount>(kArmRate1).setConstant(Scalar(0));
+    M.template middleRows<kArmJointCount>(kArmRate1).setConstant(Scalar(0));
     for (int i = 0; i < kArmJointCount; ++i) M(kArmRate1 + i, kArmRate1 + i) = Scalar(1);
     return M;
   }
 
   bool rigid_arm_;
-  Ldlt<Scalar, kVelocityDim> factors_;
+  Ldlt<Scalar, Pass::kVelocities> factors_;
 };
 
 }  // namespace ballbot

@@ -6,6 +6,7 @@
 #include "model/dynamics_constants.hpp"
 #include "model/sine_cosine.hpp"
 #include "model/spatial.hpp"
+#include "model/spinning_state.hpp"
 
 namespace ballbot {
 
@@ -29,18 +30,24 @@ inline void sinesAndCosines(const double* angle, double* sine, double* cosine) {
 /// The wheels' mass and transverse inertia belong to the base. Their spin enters by the momentum
 /// G s with s = (1 + rho) w - rho kappa, for which d_i . s = d_i . w + phi_dot_i is the spin of
 /// wheel i in W.
-template <typename Scalar>
+///
+/// kSpin: the ball may spin about the vertical, with a ninth velocity (spinning_state.hpp) and an
+/// equation of motion of its own. It adds to kappa = R^T (J_K v + z spin), and so to the wheels'
+/// momentum; of its own it has the ball's inertia, the same about every axis, and nothing else.
+template <typename Scalar, bool kSpin = false>
 class NewtonEuler {
  public:
+  static constexpr int kVelocities = kSpin ? kSpinningVelocityDim : kVelocityDim;
   using Vec3 = Eigen::Matrix<Scalar, 3, 1>;
   using Mat3 = Eigen::Matrix<Scalar, 3, 3>;
   using Vec6 = Eigen::Matrix<Scalar, kJointCount, 1>;
   using Vec8 = Eigen::Matrix<Scalar, kVelocityDim, 1>;
-  using Mat8 = Eigen::Matrix<Scalar, kVelocityDim, kVelocityDim>;
+  using Velocities = Eigen::Matrix<Scalar, kVelocities, 1>;  ///< Vec8 without spin
+  using Mass = Eigen::Matrix<Scalar, kVelocities, kVelocities>;
   template <typename T>
   using PerJoint = std::array<T, kArmJointCount>;
 
-  NewtonEuler(const DynamicsConstants& constants, const Vec8& q, const Vec8& nu)
+  NewtonEuler(const DynamicsConstants& constants, const Vec8& q, const Velocities& nu)
       : c_(constants), rho_(constants.ratio), G_(constants.spin_inertia.cast<Scalar>()) {
     placeBase(q, nu);
     goOutward(nu);
@@ -48,20 +55,21 @@ class NewtonEuler {
   }
 
   /// h(q, nu): the generalised force that dnu/dt = 0 takes.
-  [[gnu::flatten]] Vec8 nonlinearEffects() const {
-    Vec8 h;
+  [[gnu::flatten]] Velocities nonlinearEffects() const {
+    Velocities h;
     const Vec3 spin_torque = rho_ * (G_ * cross(omega, kappa));
     h.template head<2>() =
         (R_WB * bias[0].force).template head<2>() - rho_ * (rolling.transpose() * spin_torque);
     h.template segment<3>(kOmegaX) =
         bias[0].moment + (Scalar(1) + rho_) * spin_torque + cross(omega, spin_momentum);
     for (int i = 0; i < kArmJointCount; ++i) h[kArmRate1 + i] = dot(joint[i], bias[i + 1]);
+    if constexpr (kSpin) h[kBallSpin] = -rho_ * dot(R_WB.row(2), spin_torque);
     return h;
   }
 
   /// M(q), by composite rigid bodies.
-  [[gnu::flatten]] Mat8 massMatrix() const {
-    Mat8 M;
+  [[gnu::flatten]] Mass massMatrix() const {
+    Mass M;
     const Scalar one(1);
     const Eigen::Matrix<Scalar, 3, 2> G_rolling = G_ * rolling;
     M.template topLeftCorner<2, 2>() = rho_ * rho_ * (rolling.transpose() * G_rolling);
@@ -86,27 +94,35 @@ class NewtonEuler {
       M.template block<3, 1>(kOmegaX, column) = joint_wrench[i].moment;
       for (int j = 0; j <= i; ++j) M(kArmRate1 + j, column) = dot(joint[j], joint_wrench[i]);
     }
-    for (int i = 0; i < kVelocityDim; ++i) {
+    if constexpr (kSpin) {
+      const Vec3 G_up = G_ * R_WB.row(2).transpose();
+      for (int k = 0; k < 2; ++k) M(k, kBallSpin) = rho_ * rho_ * dot(rolling.col(k), G_up);
+      M.template block<3, 1>(kOmegaX, kBallSpin) = -rho_ * (one + rho_) * G_up;
+      for (int i = 0; i < kArmJointCount; ++i) M(kArmRate1 + i, kBallSpin) = Scalar(0);
+      M(kBallSpin, kBallSpin) = Scalar(c_.ball_inertia) + rho_ * rho_ * dot(R_WB.row(2), G_up);
+    }
+    for (int i = 0; i < kVelocities; ++i) {
       for (int j = 0; j < i; ++j) M(i, j) = M(j, i);
     }
     return M;
   }
 
-  /// S(q)^T tau + J_E(q)^T lambda_W.
-  [[gnu::flatten]] Vec8 appliedForce(const Vec6& tau, const Vec3& lambda_W) const {
+  /// S(q)^T tau + J_E(q)^T lambda_W; what the floor does against a spin comes on top.
+  [[gnu::flatten]] Velocities appliedForce(const Vec6& tau, const Vec3& lambda_W) const {
     const Vec3 ball_torque = ballTorque(tau);
     const Vec3 lambda = R_WB.transpose() * lambda_W;
-    Vec8 force;
+    Velocities force;
     force.template head<2>() = rolling.transpose() * ball_torque + lambda_W.template head<2>();
     force.template segment<3>(kOmegaX) = cross(p_KE, lambda) - ball_torque;
     for (int i = 0; i < kArmJointCount; ++i) {
       force[kArmRate1 + i] = tau[kWheelCount + i] + dot(tipVelocity(i), lambda);
     }
+    if constexpr (kSpin) force[kBallSpin] = dot(R_WB.row(2), ball_torque);
     return force;
   }
 
   /// Adds what a moment on the end-effector does.
-  void addMoment(const Vec3& moment_W, Vec8& force) const {
+  void addMoment(const Vec3& moment_W, Velocities& force) const {
     const Vec3 moment = R_WB.transpose() * moment_W;
     force.template segment<3>(kOmegaX) += moment;
     for (int i = 0; i < kArmJointCount; ++i) force[kArmRate1 + i] += dot(joint[i].angular, moment);
@@ -132,7 +148,7 @@ class NewtonEuler {
   Mat3 R_WB;
   Mat3 R_BA3;  ///< last link's axes
   Vec3 p_KE;
-  Eigen::Matrix<Scalar, 3, 2> rolling;    ///< R^T J_K: kappa = rolling (vx, vy)
+  Eigen::Matrix<Scalar, 3, 2> rolling;    ///< R^T J_K: kappa = rolling (vx, vy), spin apart
   PerJoint<Motion<Scalar>> joint;         ///< motion per unit of joint rate
   PerJoint<Motion<Scalar>> joint_rate;    ///< its rate of change, from the parent's motion
   PerJoint<Wrench<Scalar>> joint_wrench;  ///< composite momentum per unit of joint rate
@@ -145,7 +161,7 @@ class NewtonEuler {
   PerJoint<Scalar> rate;                          ///< arm joint rates
 
  private:
-  [[gnu::flatten]] void placeBase(const Vec8& q, const Vec8& nu) {
+  [[gnu::flatten]] void placeBase(const Vec8& q, const Velocities& nu) {
     const Scalar angle[8] = {q[kYaw],  q[kPitch], q[kRoll],  q[kArm1],
                              q[kArm2], q[kArm3],  Scalar(0), Scalar(0)};
     Scalar sine[8], cosine[8];
@@ -167,6 +183,7 @@ class NewtonEuler {
 
     omega = nu.template segment<3>(kOmegaX);
     kappa = rolling * nu.template head<2>();
+    if constexpr (kSpin) kappa += nu[kBallSpin] * R_WB.row(2).transpose();
     spin_momentum = G_ * (omega + rho_ * (omega - kappa));
     velocity[0] = {omega, Vec3::Zero()};
     composite[0] = {c_.base_mass, c_.base_first_moment.template cast<Scalar>(),
@@ -174,7 +191,7 @@ class NewtonEuler {
   }
 
   /// Places and moves each link from its parent.
-  [[gnu::flatten]] void goOutward(const Vec8& nu) {
+  [[gnu::flatten]] void goOutward(const Velocities& nu) {
     R_BA3.setIdentity();
     Vec3 origin = Vec3::Zero();
     for (int i = 0; i < kArmJointCount; ++i) {

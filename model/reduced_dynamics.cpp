@@ -57,12 +57,12 @@ void ReducedDynamics::derivatives(int count, const StateVector* x, const JointVe
                                   const Vector3* lambda_W, StateVector* dx,
                                   const Vector3* moment_W) const {
   for (int first = 0; first < count; first += Pack::kLanes) {
-    const DynamicsLanes lanes(*constants_, first, count, x);
-    const DynamicsLanes::Pass& pass = lanes.pass;
+    const DynamicsLanes<> lanes(*constants_, first, count, x);
+    const DynamicsLanes<>::Pass& pass = lanes.pass;
     Eigen::Matrix<Pack, kStateDim, 1> rate;
     rate.head<kPositionDim>() = lanes.nu;
     rate.segment<3>(kYaw) = pass.eulerRates();
-    DynamicsLanes::Pass::Vec8 force =
+    DynamicsLanes<>::Pass::Vec8 force =
         pass.appliedForce(lanes.gathered<0, kJointCount>(tau), lanes.gathered<0, 3>(lambda_W));
     if (moment_W) pass.addMoment(lanes.gathered<0, 3>(moment_W), force);
     rate.tail<kVelocityDim>() = force - pass.nonlinearEffects();

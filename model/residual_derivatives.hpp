@@ -13,29 +13,33 @@ namespace ballbot {
 /// value pass suffice. Orientation enters as a small rotation delta about axes of B: it turns what
 /// is fixed in W, that is gravity, the acceleration of K, lambda and the axes about which the ball
 /// rolls, and nothing else.
-template <typename Scalar>
+///
+/// kSpin: r has a ninth row and, by the spin, a ninth column of the velocities; its axis z turns
+/// like those about which the ball rolls.
+template <typename Scalar, bool kSpin = false>
 class ResidualDerivatives {
  public:
-  using Pass = NewtonEuler<Scalar>;
+  using Pass = NewtonEuler<Scalar, kSpin>;
+  static constexpr int kVelocities = Pass::kVelocities;
   using Vec3 = typename Pass::Vec3;
   using Mat3 = typename Pass::Mat3;
   using Vec6 = typename Pass::Vec6;
-  using Vec8 = typename Pass::Vec8;
+  using Velocities = typename Pass::Velocities;
 
   /// Columns: by the variables that r depends on, then S^T and J_E^T.
   enum Column : int {
     kByEuler = 0,              // yaw, pitch, roll
     kByArm = kByEuler + 3,     // arm joint angles
     kByVelocity = kByArm + 3,  // nu
-    kByTorque = kByVelocity + kVelocityDim,
+    kByTorque = kByVelocity + kVelocities,
     kByForce = kByTorque + kJointCount,
     kColumnCount = kByForce + 3
   };
-  Eigen::Matrix<Scalar, kVelocityDim, kColumnCount> columns;  ///< of -dr
-  Eigen::Matrix<Scalar, kVelocityDim, 3> by_moment;           ///< set by addMoment()
+  Eigen::Matrix<Scalar, kVelocities, kColumnCount> columns;  ///< of -dr
+  Eigen::Matrix<Scalar, kVelocities, 3> by_moment;           ///< set by addMoment()
 
   ResidualDerivatives(const DynamicsConstants& constants, const Pass& pass,
-                      const Vec8& acceleration, const Vec6& tau, const Vec3& lambda_W)
+                      const Velocities& acceleration, const Vec6& tau, const Vec3& lambda_W)
       : c_(constants), p_(pass), rho_(constants.ratio), G_(constants.spin_inertia.cast<Scalar>()) {
     angular_ = acceleration.template segment<3>(kOmegaX);
     linear_ = acceleration[kBallVx] * p_.R_WB.row(0) + acceleration[kBallVy] * p_.R_WB.row(1);
@@ -46,6 +50,7 @@ class ResidualDerivatives {
     byOrientation(acceleration, tau);
     byBaseVelocity();
     byInputs();
+    if constexpr (kSpin) bySpin();
   }
 
   /// The part of a moment on the end-effector: without it there is none.
@@ -86,10 +91,12 @@ class ResidualDerivatives {
     return {dot(by_delta, yaw), p_.cos_roll * by_delta[1] - p_.sin_roll * by_delta[2], by_delta[0]};
   }
 
-  [[gnu::flatten]] void byArm(const Vec8& acceleration);
-  [[gnu::flatten]] void byOrientation(const Vec8& acceleration, const Vec6& tau);
+  [[gnu::flatten]] void byArm(const Velocities& acceleration);
+  [[gnu::flatten]] void byOrientation(const Velocities& acceleration, const Vec6& tau);
   [[gnu::flatten]] void byBaseVelocity();
   [[gnu::flatten]] void byInputs();
+  /// The column of the spin, and of its row what does not stand beside the ball's other rows.
+  [[gnu::flatten]] void bySpin();
 
   const DynamicsConstants& c_;
   const Pass& p_;
@@ -100,8 +107,8 @@ class ResidualDerivatives {
   std::array<Vec3, kArmJointCount> tip_;
 };
 
-template <typename Scalar>
-void ResidualDerivatives<Scalar>::byArm(const Vec8& acceleration) {
+template <typename Scalar, bool kSpin>
+void ResidualDerivatives<Scalar, kSpin>::byArm(const Velocities& acceleration) {
   // Accelerations with dnu, their part that comes from dnu, and the wrenches that go with them.
   std::array<Motion<Scalar>, 4> actual, added;
   added[0] = {angular_, linear_};
@@ -151,11 +158,13 @@ void ResidualDerivatives<Scalar>::byArm(const Vec8& acceleration) {
   }
 }
 
-template <typename Scalar>
-void ResidualDerivatives<Scalar>::byOrientation(const Vec8& acceleration, const Vec6& tau) {
+template <typename Scalar, bool kSpin>
+void ResidualDerivatives<Scalar, kSpin>::byOrientation(const Velocities& acceleration,
+                                                       const Vec6& tau) {
   // A vector v that is fixed in W changes by v x delta in B.
-  const Vec3 ball_acceleration =
+  Vec3 ball_acceleration =
       acceleration[kBallVx] * p_.rolling.col(0) + acceleration[kBallVy] * p_.rolling.col(1);
+  if constexpr (kSpin) ball_acceleration += acceleration[kBallSpin] * p_.R_WB.row(2).transpose();
   Mat3 dspin_rate = skewSkew(p_.omega, p_.kappa);
   subtractSkew(dspin_rate, ball_acceleration);
   const Mat3 spin_torque = rho_ * (G_ * dspin_rate);  // of the rate of the wheels' momentum
@@ -189,10 +198,15 @@ void ResidualDerivatives<Scalar>::byOrientation(const Vec8& acceleration, const 
   for (int i = 0; i < kArmJointCount; ++i) {
     setRow(kArmRate1 + i, cross(p_.joint_wrench[i].force, a_K_) - cross(tip_[i], lambda_));
   }
+  if constexpr (kSpin) {
+    const Vec3 up = p_.R_WB.row(2).transpose();
+    const Vec3 turned = spin_torque.transpose() * up;
+    setRow(kBallSpin, -cross(ball_torque, up) - rho_ * turned);
+  }
 }
 
-template <typename Scalar>
-void ResidualDerivatives<Scalar>::byBaseVelocity() {
+template <typename Scalar, bool kSpin>
+void ResidualDerivatives<Scalar, kSpin>::byBaseVelocity() {
   const MassMoments<Scalar>& body = p_.composite[0];
   const VelocityMoments<Scalar>& moving = p_.moving[0];
   const Scalar one(1), two(2);
@@ -226,8 +240,8 @@ void ResidualDerivatives<Scalar>::byBaseVelocity() {
   columns.template block<3, 2>(kArmRate1, kByVelocity).setConstant(Scalar(0));
 }
 
-template <typename Scalar>
-void ResidualDerivatives<Scalar>::byInputs() {
+template <typename Scalar, bool kSpin>
+void ResidualDerivatives<Scalar, kSpin>::byInputs() {
   columns.template middleCols<kJointCount>(kByTorque).setConstant(Scalar(0));
   for (int i = 0; i < kWheelCount; ++i) {
     const Vec3 arm = rho_ * c_.axles.row(i).transpose().template cast<Scalar>();
@@ -245,8 +259,37 @@ void ResidualDerivatives<Scalar>::byInputs() {
   }
 }
 
-template <typename Scalar>
-void ResidualDerivatives<Scalar>::addMoment(const Vec3& moment_W) {
+template <typename Scalar, bool kSpin>
+void ResidualDerivatives<Scalar, kSpin>::bySpin() {
+  const Vec3 up = p_.R_WB.row(2).transpose();
+  const Vec3 turned = cross(p_.omega, up);
+  const Vec3 spun = G_ * turned;
+  const int column = kByVelocity + kBallSpin;
+  for (int j = 0; j < 2; ++j) {
+    const Vec3 axis = p_.rolling.col(j);
+    columns(kBallVx + j, column) = rho_ * rho_ * dot(axis, spun);
+    columns(kBallSpin, kByVelocity + kBallVx + j) =
+        rho_ * rho_ * dot(up, Vec3(G_ * cross(p_.omega, axis)));
+  }
+  columns.template block<3, 1>(kOmegaX, column) =
+      rho_ * (cross(p_.omega, Vec3(G_ * up)) - (Scalar(1) + rho_) * spun);
+  columns(kBallSpin, column) = rho_ * rho_ * dot(up, spun);
+  columns.template block<1, 3>(kBallSpin, kByVelocity + kOmegaX) =
+      -rho_ * rho_ * (up.transpose() * timesSkew(G_, p_.kappa));
+  for (int i = 0; i < kArmJointCount; ++i) {
+    columns(kArmRate1 + i, column) = Scalar(0);
+    columns(kBallSpin, kByVelocity + kArmRate1 + i) = Scalar(0);
+    columns(kBallSpin, kByArm + i) = Scalar(0);
+  }
+  for (int i = 0; i < kWheelCount; ++i) {
+    const Vec3 arm = rho_ * c_.axles.row(i).transpose().template cast<Scalar>();
+    columns(kBallSpin, kByTorque + i) = -dot(up, arm);
+  }
+  for (int k = 0; k < 3; ++k) columns(kBallSpin, kByForce + k) = Scalar(0);
+}
+
+template <typename Scalar, bool kSpin>
+void ResidualDerivatives<Scalar, kSpin>::addMoment(const Vec3& moment_W) {
   const Vec3 moment = p_.R_WB.transpose() * moment_W;  // changes by moment x delta
   const Vec3 skew_rows[3] = {Vec3(Scalar(0), -moment[2], moment[1]),
                              Vec3(moment[2], Scalar(0), -moment[0]),
@@ -265,6 +308,7 @@ void ResidualDerivatives<Scalar>::addMoment(const Vec3& moment_W) {
   for (int k = 0; k < 3; ++k) {
     const Vec3 direction = p_.R_WB.row(k).transpose();
     for (int j = 0; j < 2; ++j) by_moment(kBallVx + j, k) = Scalar(0);
+    if constexpr (kSpin) by_moment(kBallSpin, k) = Scalar(0);
     by_moment.template block<3, 1>(kOmegaX, k) = direction;
     for (int i = 0; i < kArmJointCount; ++i) {
       by_moment(kArmRate1 + i, k) = dot(p_.joint[i].angular, direction);

@@ -26,7 +26,8 @@ void FloorContactParameters::describe(ConfigVisitor& v) {
            slip_velocity, {1e-5, 1});
 }
 
-FloorLoad FloorContact::load(double height, const Vector3& v_WK_W, const Vector3& w_WK_W) const {
+FloorLoad FloorContact::load(double height, const Vector3& v_WK_W, const Vector3& w_WK_W,
+                             double spin_lever) const {
   const double depth = radius_ - height;
   if (depth <= 0) return {};
   const double normal = std::max(
@@ -39,7 +40,7 @@ FloorLoad FloorContact::load(double height, const Vector3& v_WK_W, const Vector3
       -p_.friction * normal / p_.slip_velocity * tanhShare(slip.norm() / p_.slip_velocity) * slip;
   out.force.z() = normal;
   out.torque = p_KC_W.cross(out.force);
-  out.torque.z() -= spin_lever_ * normal * std::tanh(w_WK_W.z() / spin_smoothing_);
+  out.torque.z() -= spin_lever * normal * std::tanh(w_WK_W.z() / spin_smoothing_);
   return out;
 }
 

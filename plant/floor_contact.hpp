@@ -30,14 +30,14 @@ struct FloorLoad {
 
 class FloorContact {
  public:
-  /// @param spin_lever  torque about the vertical per normal force [m]
-  /// @param spin_smoothing  spin at which three quarters of it are reached [rad/s]
-  FloorContact(const FloorContactParameters& p, double radius, double spin_lever,
-               double spin_smoothing)
-      : p_(p), radius_(radius), spin_lever_(spin_lever), spin_smoothing_(spin_smoothing) {}
+  /// @param spin_smoothing  spin at which three quarters of the spin torque are reached [rad/s]
+  FloorContact(const FloorContactParameters& p, double radius, double spin_smoothing)
+      : p_(p), radius_(radius), spin_smoothing_(spin_smoothing) {}
 
   /// @param height  of the ball's centre above the floor [m]
-  FloorLoad load(double height, const Vector3& v_WK_W, const Vector3& w_WK_W) const;
+  /// @param spin_lever  largest torque about the vertical per normal force [m]
+  FloorLoad load(double height, const Vector3& v_WK_W, const Vector3& w_WK_W,
+                 double spin_lever) const;
   /// Depth at which the floor carries `weight` [N]: (weight / k)^(2/3) [m].
   double restingDepth(double weight) const;
   /// Of the deformation [J]: 2/5 k x^(5/2).
@@ -45,7 +45,7 @@ class FloorContact {
 
  private:
   FloorContactParameters p_;
-  double radius_, spin_lever_, spin_smoothing_;
+  double radius_, spin_smoothing_;
 };
 
 }  // namespace ballbot

@@ -28,8 +28,7 @@ struct MultibodyOptions {
   /// The ball lies on a floor that gives way, instead of rolling on a rigid one: it has all of its
   /// six degrees of freedom. Needs error-controlled integration.
   std::optional<FloorContactParameters> floor;
-  double spin_lever = 0;         ///< of such a floor: torque about the vertical per load [m]
-  double spin_smoothing = 0.02;  ///< [rad/s]
+  double spin_smoothing = 0.02;  ///< of such a floor [rad/s]
 };
 
 /// Bodies an external force can act on.
@@ -48,7 +47,8 @@ struct MultibodyLoads {
   JointVector joint_torque = JointVector::Zero();  ///< on the joint, reaction on its parent [N m]
   JointVector rotor_torque = JointVector::Zero();  ///< on the rotor, times the gear ratio [N m]
   double ball_spin_torque = 0;                     ///< on the ball about the vertical [N m]
-  std::vector<PointForce> forces;                  ///< keeps its capacity between uses
+  double spin_lever = 0;           ///< the same per load, at most, of a floor that gives way [m]
+  std::vector<PointForce> forces;  ///< keeps its capacity between uses
 };
 
 /// Angles and rates at the six actuators; wheels relative to the base.
@@ -116,6 +116,12 @@ class Multibody {
   virtual JointMotion joints() const = 0;
   virtual BaseMotion base() const = 0;
   virtual BodyMotion body(BodyIndex body) const = 0;
+
+  /// Of a floor that gives way, at the current state; zero of another.
+  virtual FloorLoad floorLoad(double spin_lever) const {
+    (void)spin_lever;
+    return {};
+  }
 
   /// dy/dt at the current state.
   virtual void derivative(const MultibodyLoads& loads, double* ydot) = 0;

@@ -28,7 +28,7 @@ class CompliantMultibody final : public Multibody {
   CompliantMultibody(const RobotParameters& robot, const MultibodyOptions& options)
       : robot_(robot),
         options_(options),
-        floor_(*options.floor, robot.ball.radius, options.spin_lever, options.spin_smoothing),
+        floor_(*options.floor, robot.ball.radius, options.spin_smoothing),
         ratio_(robot.ball.radius / robot.wheels.radius),
         matter_(system_) {
     addBodies();
@@ -115,6 +115,11 @@ class CompliantMultibody final : public Multibody {
     const bool ball = index == kBallBody;  // its axes are those of W, whatever its attitude
     return {toEigen(X.p()), ball ? Matrix3::Identity() : toEigen(X.R()), toEigen(V[1]),
             toEigen(V[0])};
+  }
+
+  FloorLoad floorLoad(double spin_lever) const override {
+    const BodyMotion ball = body(kBallBody);
+    return floor_.load(ball.p_WL.z(), ball.v_WL_W, ball.w_WL_W, spin_lever);
   }
 
   void derivative(const MultibodyLoads& loads, double* ydot) override {
@@ -239,8 +244,7 @@ class CompliantMultibody final : public Multibody {
                                   Vec3(0, 0, -robot_.gravity * body->getBodyMass(state_)),
                                   body_forces_);
     }
-    const BodyMotion ball = body(kBallBody);
-    const FloorLoad floor = floor_.load(ball.p_WL.z(), ball.v_WL_W, ball.w_WL_W);
+    const FloorLoad floor = floorLoad(loads.spin_lever);
     SpatialVec& on_ball = body_forces_[bodies_[kBallBody].getMobilizedBodyIndex()];
     on_ball += SpatialVec(toSimTK(floor.torque), toSimTK(floor.force));
     for (const PointForce& f : loads.forces) {

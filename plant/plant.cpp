@@ -12,6 +12,7 @@
 #include "model/frames.hpp"
 #include "model/signal_check.hpp"
 #include "plant/drive_bank.hpp"
+#include "plant/floor_truth.hpp"
 #include "plant/plant_dynamics.hpp"
 
 namespace ballbot {
@@ -74,7 +75,8 @@ class Plant::Impl {
         dynamics_(config),
         integrator_(makeIntegrator(config, dynamics_.dim())),
         state_(config, dynamics_.dim()),
-        added_sensors_(config.added_sensors, config.seed) {
+        added_sensors_(config.added_sensors, config.seed),
+        floor_truth_(config) {
     reset(kSimStart);
   }
 
@@ -156,7 +158,16 @@ class Plant::Impl {
   SimTime now() const { return state_.now; }
   const SensorFrame& sensors() const { return sensors_; }
   const TruthFrame& truth() const { return truth_; }
-  const AddedSignals& addedSensors() const { return added_sensors_.signals(); }
+  const AddedSignals& added(AddedTo frame) const {
+    switch (frame) {
+      case AddedTo::kSensors:
+        return added_sensors_.signals();
+      case AddedTo::kTruth:
+        return floor_truth_.signals();
+      default:
+        return AddedSignals::none();
+    }
+  }
 
  private:
   /// Together with actuators, faults and motion capture all that must be saved to go on bit for
@@ -339,6 +350,7 @@ class Plant::Impl {
     f.door_angle = door.angle;
     f.door_rate = door.rate;
     f.external_force_W = environment_.totalForce(state_.now) + external_.sum();
+    floor_truth_.observe(dynamics_.ballOnFloor());
   }
 
   PlantConfig config_;
@@ -354,6 +366,7 @@ class Plant::Impl {
   SensorFrame sensors_;
   TruthFrame truth_;
   AddedSensorBank added_sensors_;
+  FloorTruth floor_truth_;
   mutable StateHasher hasher_;
 };
 
@@ -365,7 +378,7 @@ void Plant::advanceTo(SimTime t, const ActuatorCommand& command) { impl_->advanc
 void Plant::setExternalForces(const ExternalForces& forces) { impl_->setExternalForces(forces); }
 const SensorFrame& Plant::sensors() const { return impl_->sensors(); }
 const TruthFrame& Plant::truth() const { return impl_->truth(); }
-const AddedSignals& Plant::addedSensors() const { return impl_->addedSensors(); }
+const AddedSignals& Plant::added(AddedTo frame) const { return impl_->added(frame); }
 StateBlob Plant::saveState() const { return impl_->save(); }
 void Plant::restoreState(const StateBlob& blob) { impl_->restore(blob); }
 std::uint64_t Plant::stateDigest() const { return impl_->digest(); }

@@ -37,8 +37,8 @@ class Plant {
 
   const SensorFrame& sensors() const;
   const TruthFrame& truth() const;
-  /// Of the sensors beside those of the frame, as of the last tick of the drives.
-  const AddedSignals& addedSensors() const;
+  /// Beside the sensors' frame, as of the last tick of the drives; beside the truth, as of now.
+  const AddedSignals& added(AddedTo frame) const;
 
   StateBlob saveState() const;
   /// @throw InputError if the blob is damaged or of a plant whose state has another form (other

@@ -114,12 +114,6 @@ void PlantFidelity::describe(ConfigVisitor& v) {
             transport_delay);
 }
 
-void SpinFriction::describe(ConfigVisitor& v) {
-  v.number(must("torque_Nm", "of the floor on a ball that spins"), torque, {0, kInf});
-  v.number(must("smoothing_rad_per_s", "spin at which three quarters of the torque are reached"),
-           smoothing, {1e-4, kInf});
-}
-
 void LoopInsertion::describe(ConfigVisitor& v) {
   v.number(may("gain", "factor on the torque that the wheels' joint loops want"), gain, {0, 1000});
   v.integer(may("delay_ticks", "drive ticks by which that torque comes later"), delay_ticks,

@@ -12,6 +12,7 @@
 #include "plant/motion_capture.hpp"
 #include "plant/multibody.hpp"
 #include "plant/sensors.hpp"
+#include "plant/spin_friction.hpp"
 #include "plant/surroundings.hpp"
 
 namespace ballbot {
@@ -34,16 +35,6 @@ struct PlantFidelity {
   bool saturation = true;
   bool speed_limit = true;
   bool transport_delay = true;
-
-  void describe(ConfigVisitor& v);
-};
-
-/// Friction torque of the floor on the ball's spin s about the vertical: -torque tanh(s /
-/// smoothing). With compliant contact it goes with the load; this is then that of the robot at
-/// rest.
-struct SpinFriction {
-  double torque = 0.4;      ///< [N m]
-  double smoothing = 0.02;  ///< [rad/s]
 
   void describe(ConfigVisitor& v);
 };

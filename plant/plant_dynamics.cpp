@@ -15,7 +15,6 @@ MultibodyOptions multibodyOptions(const PlantConfig& config) {
   o.ball_spin = config.fidelity.contact == ContactLevel::kRollingWithSpinFriction;
   if (config.fidelity.contact == ContactLevel::kCompliant) {
     o.floor = config.floor;
-    o.spin_lever = config.spin_friction.torque / (config.robot.gravity * config.robot.totalMass());
     o.spin_smoothing = config.spin_friction.smoothing;
   }
   for (int i = 0; i < kJointCount; ++i) {
@@ -32,6 +31,7 @@ PlantDynamics::PlantDynamics(const PlantConfig& config)
       parameters_(config.actuators),
       spin_friction_(config.spin_friction),
       gravity_(config.robot.gravity),
+      weight_(config.robot.gravity * config.robot.totalMass()),
       p_BI_B_(config.robot.p_BI_B),
       p_A3E_(config.robot.p_A3E),
       surroundings_(config.surroundings),
@@ -73,6 +73,18 @@ double PlantDynamics::energy(const double* y) const {
   return multibody_->energy() + surroundings_.energy(surroundingsState(y), endEffector());
 }
 
+BallOnFloor PlantDynamics::ballOnFloor() const {
+  const BaseMotion base = multibody_->base();
+  BallOnFloor out;
+  out.spin_rate = base.ball_spin;
+  out.held = spin_friction_.heldAt(base.p_WK.head<2>());
+  if (fidelity_.contact == ContactLevel::kCompliant) {
+    out.held *= multibody_->floorLoad(0).force.z() / weight_;
+  }
+  out.torque = -out.held * std::tanh(base.ball_spin / spin_friction_.smoothing);
+  return out;
+}
+
 void PlantDynamics::applyActuators(double since_tick) {
   const JointMotion m = multibody_->joints();
   for (int i = 0; i < kJointCount; ++i) {
@@ -102,8 +114,9 @@ void PlantDynamics::derivative(double since_tick, const double* y, double* ydot)
   if (held_) {
     multibody_->derivativeHeld(loads_, ydot);
   } else {
-    loads_.ball_spin_torque =
-        -spin_friction_.torque * std::tanh(base.ball_spin / spin_friction_.smoothing);
+    const double held = spin_friction_.heldAt(base.p_WK.head<2>());
+    loads_.ball_spin_torque = -held * std::tanh(base.ball_spin / spin_friction_.smoothing);
+    loads_.spin_lever = held / weight_;
     multibody_->derivative(loads_, ydot);
     acceleration = multibody_->baseAcceleration(ydot);
   }

@@ -55,6 +55,8 @@ class PlantDynamics final : public OdeSystem {
   /// The surroundings at the realized state, which is that of y.
   Touch touch(const double* y) const;
   DoorMotion door(const double* y) const { return surroundings_.door(surroundingsState(y)); }
+  /// Where the ball may spin, at the realized state.
+  BallOnFloor ballOnFloor() const;
   /// Of robot, door, and the springs of contacts [J].
   double energy(const double* y) const;
 
@@ -79,7 +81,7 @@ class PlantDynamics final : public OdeSystem {
   PlantFidelity fidelity_;
   RobotActuators parameters_;
   SpinFriction spin_friction_;
-  double gravity_;
+  double gravity_, weight_;
   Vector3 p_BI_B_, p_A3E_;
   Surroundings surroundings_;
   std::unique_ptr<Multibody> multibody_;

@@ -23,7 +23,7 @@ class PlantParticipant final : public Participant {
   void reset() override { plant_.reset(kSimStart); }
   const SensorFrame& sensors() const override { return plant_.sensors(); }
   std::optional<TruthFrame> truth() const override { return plant_.truth(); }
-  const AddedSignals& addedSensors() const override { return plant_.addedSensors(); }
+  const AddedSignals& added(AddedTo frame) const override { return plant_.added(frame); }
   StateBlob saveState() const override { return plant_.saveState(); }
   void restoreState(const StateBlob& blob) override { plant_.restoreState(blob); }
   std::uint64_t stateDigest() const override { return plant_.stateDigest(); }

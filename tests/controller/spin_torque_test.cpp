@@ -6,6 +6,9 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include "model/frames.hpp"
+#include "model/omniwheel_kinematics.hpp"
+#include "model/spinning_dynamics.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
@@ -51,6 +54,34 @@ TEST(SpinTorque, WhatIsTooMuchIsCutAcrossBalance) {
   EXPECT_LT(change.head<2>().norm(), 1e-12) << "what balances stays";
   EXPECT_GT(std::abs(change.z()), 0.5);
   EXPECT_EQ(spin.within(4, x, tau), tau);
+}
+
+// The model's own account of it: the floor returns what of the wheels' torque does not speed up the
+// wheels, which is little.
+TEST(SpinTorque, IsWhatTheFloorReturnsButForTheWheelsInertia) {
+  const RobotParameters robot = exampleRobot();
+  const ReducedDynamics dynamics(robot);
+  const SpinningDynamics spinning(robot);
+  const SpinTorque spin(robot);
+  const OmniwheelKinematics wheels(robot);
+  Matrix3 axles;
+  for (int i = 0; i < kWheelCount; ++i) axles.row(i) = robot.wheelAxle(i).transpose();
+  for (int k = 0; k < 50; ++k) {
+    const RandomCase c = randomCase(k);
+    const StateVector dx = dynamics.derivative(c.x, c.tau, c.lambda);
+    const auto wheelSpins = [&](double t) -> Vector3 {
+      const StateVector x = c.x + t * dx;
+      const Matrix3 R_WB = rotationFromYawPitchRoll(x[kYaw], x[kPitch], x[kRoll]);
+      return axles * x.segment<3>(kPositionDim + kOmegaX) +
+             wheels.wheelRows(R_WB) * x.tail<kVelocityDim>();
+    };
+    constexpr double h = 1e-5;
+    const Vector3 inertial = robot.wheels.spin_inertia * (wheelSpins(h) - wheelSpins(-h)) / (2 * h);
+    const Vector3 tau = c.tau.head<kWheelCount>(), n = spin.at(c.x).c;
+    const double floor = spinning.floorSpinTorque(c.x, c.tau, c.lambda);
+    EXPECT_NEAR(floor, -n.dot(tau - inertial), 1e-7 * (1 + std::abs(floor))) << "case " << k;
+    EXPECT_NEAR(floor, spinning.floorSpinTorque(c.x, dx.tail<kVelocityDim>(), c.tau), 1e-12);
+  }
 }
 
 /// Value, gradient and positive semidefinite Hessian of the barrier, within its limit and beyond.

@@ -96,8 +96,12 @@ class MujocoRobot::Impl {
     mj_deleteModel(model_);
   }
 
-  VelocityVector acceleration(const PositionVector& q, const VelocityVector& nu,
-                              const JointVector& tau, const Vector3& lambda) {
+  /// kVelocities: 8, or 9 where the ball may spin.
+  template <int kVelocities>
+  Eigen::Matrix<double, kVelocities, 1> acceleration(const PositionVector& q,
+                                                     const SpinningVelocityVector& nu,
+                                                     const JointVector& tau, const Vector3& lambda,
+                                                     double floor_torque) {
     const Eigen::Quaterniond orientation = Eigen::AngleAxisd(q[kYaw], Vector3::UnitZ()) *
                                            Eigen::AngleAxisd(q[kPitch], Vector3::UnitY()) *
                                            Eigen::AngleAxisd(q[kRoll], Vector3::UnitX());
@@ -109,9 +113,9 @@ class MujocoRobot::Impl {
       data_->qpos[model_->jnt_qposadr[joint]] = q[kArm1 + i];
     }
 
-    Eigen::Matrix<double, kBodyDofs, kVelocityDim> A;  // all velocities = A nu
-    for (int k = 0; k < kVelocityDim; ++k) A.col(k) = allVelocities(VelocityVector::Unit(k));
-    Eigen::Map<FullVector>(data_->qvel) = A * nu;
+    Eigen::Matrix<double, kBodyDofs, kVelocities> A;  // all velocities = A nu
+    for (int k = 0; k < kVelocities; ++k) A.col(k) = allVelocities(SpinningVelocityVector::Unit(k));
+    Eigen::Map<FullVector>(data_->qvel) = A * nu.head<kVelocities>();
     // dA/dt nu: the ball's axes of rotation turn against the base, so the wheel rates change even
     // when nu does not.
     FullVector drift = FullVector::Zero();
@@ -127,6 +131,7 @@ class MujocoRobot::Impl {
     FullVector applied = FullVector::Zero();
     for (int i = 0; i < kWheelCount; ++i) applied[wheel_[i]] = tau[i];
     for (int i = 0; i < kArmJointCount; ++i) applied[arm_[i]] = tau[kWheelCount + i];
+    applied[ball_ + 5] = floor_torque;
     PointJacobian J;
     const Vector3 p = endEffectorPosition();
     mj_jac(model_, data_, J.data(), nullptr, p.data(), last_link_);
@@ -153,11 +158,12 @@ class MujocoRobot::Impl {
     std::copy(values, values + 7, qpos);
   }
 
-  /// Rolling on the floor without spin about the vertical.
-  Vector3 ballRate(const VelocityVector& nu) const {
-    return Vector3::UnitZ().cross(Vector3(nu[kBallVx], nu[kBallVy], 0)) / robot_.ball.radius;
+  /// Rolling on the floor, and spinning on the spot.
+  Vector3 ballRate(const SpinningVelocityVector& nu) const {
+    return Vector3::UnitZ().cross(Vector3(nu[kBallVx], nu[kBallVy], 0)) / robot_.ball.radius +
+           Vector3(0, 0, nu[kBallSpin]);
   }
-  Vector3 ballRateInBase(const VelocityVector& nu) const {
+  Vector3 ballRateInBase(const SpinningVelocityVector& nu) const {
     return R_WB_.transpose() * ballRate(nu);
   }
 
@@ -170,7 +176,7 @@ class MujocoRobot::Impl {
     return (ball_B - base_B).cross(contact).dot(t) / per_rate;
   }
 
-  FullVector allVelocities(const VelocityVector& nu) const {
+  FullVector allVelocities(const SpinningVelocityVector& nu) const {
     FullVector v = FullVector::Zero();
     // A free joint's velocity: that of its origin in W, then its rotation in its own axes.
     v.segment<2>(ball_) = v.segment<2>(base_) = nu.head<2>();
@@ -195,7 +201,16 @@ MujocoRobot::~MujocoRobot() = default;
 
 VelocityVector MujocoRobot::acceleration(const PositionVector& q, const VelocityVector& nu,
                                          const JointVector& tau, const Vector3& lambda_W) {
-  return impl_->acceleration(q, nu, tau, lambda_W);
+  SpinningVelocityVector held;
+  held << nu, 0;
+  return impl_->acceleration<kVelocityDim>(q, held, tau, lambda_W, 0);
+}
+
+SpinningVelocityVector MujocoRobot::acceleration(const PositionVector& q,
+                                                 const SpinningVelocityVector& nu,
+                                                 const JointVector& tau, const Vector3& lambda_W,
+                                                 double floor_torque) {
+  return impl_->acceleration<kSpinningVelocityDim>(q, nu, tau, lambda_W, floor_torque);
 }
 
 Vector3 MujocoRobot::endEffectorPosition() const { return impl_->endEffectorPosition(); }

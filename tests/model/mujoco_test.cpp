@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "model/spinning_dynamics.hpp"
 #include "tests/model/mujoco_robot.hpp"
 #include "tests/model/robot_fixture.hpp"
 
@@ -20,7 +21,26 @@ void expectEqualAccelerations(const RobotParameters& robot) {
   }
 }
 
+void expectEqualAccelerationsOfASpinningBall(const RobotParameters& robot) {
+  const SpinningDynamics dynamics(robot);
+  MujocoRobot mujoco(robot);
+  for (int i = 0; i < 100; ++i) {
+    const RandomCase c = randomCase(i);
+    const PositionVector q = c.x.head<8>();
+    SpinningVelocityVector nu;
+    nu << c.x.tail<8>(), 0.3 * c.tau[5];
+    const double floor_torque = 0.1 * c.tau[0];
+    const auto expected = mujoco.acceleration(q, nu, c.tau, c.lambda, floor_torque);
+    const auto got = dynamics.acceleration(q, nu, c.tau, c.lambda, floor_torque);
+    EXPECT_LT((got - expected).norm(), 1e-9 * expected.norm()) << "case " << i;
+  }
+}
+
 TEST(Mujoco, GivesTheSameAccelerations) { expectEqualAccelerations(exampleRobot()); }
+
+TEST(Mujoco, GivesTheSameAccelerationsOfASpinningBall) {
+  expectEqualAccelerationsOfASpinningBall(exampleRobot());
+}
 
 TEST(Mujoco, GivesTheSameAccelerationsWithPayload) {
   RobotParameters robot = exampleRobot();
@@ -42,6 +62,7 @@ TEST(Mujoco, GivesTheSameAccelerationsForALopsidedRobot) {
   robot.arm[2].inertia.I_LLcm_L(0, 2) = robot.arm[2].inertia.I_LLcm_L(2, 0) = 0.001;
   robot.p_A3E = Vector3(0.05, 0.02, 0.35);
   expectEqualAccelerations(robot);
+  expectEqualAccelerationsOfASpinningBall(robot);
 }
 
 }  // namespace

@@ -54,22 +54,22 @@ class Freely final : public OdeSystem {
 
 TEST(FloorContact, RollingFeelsNoFrictionAndSlidingAllOfIt) {
   FloorContactParameters p;
-  const FloorContact floor(p, 0.125, 0, 0.02);
+  const FloorContact floor(p, 0.125, 0.02);
   const double height = 0.1245;
   const Vector3 v(0.3, -0.2, 0);
   const Vector3 rolling(-v.y() / height, v.x() / height, 0);
-  const FloorLoad none = floor.load(height, v, rolling);
+  const FloorLoad none = floor.load(height, v, rolling, 0);
   EXPECT_LT(none.force.head<2>().norm(), 1e-12);
   EXPECT_NEAR(none.force.z(), p.stiffness * std::pow(0.125 - height, 1.5), 1e-6);
-  const FloorLoad sliding = floor.load(height, v, Vector3::Zero());
+  const FloorLoad sliding = floor.load(height, v, Vector3::Zero(), 0);
   EXPECT_NEAR(sliding.force.head<2>().norm(), p.friction * sliding.force.z(), 1e-9);
   EXPECT_LT(sliding.force.head<2>().dot(v.head<2>()), 0);
-  EXPECT_EQ(floor.load(0.126, v, rolling).force, Vector3::Zero()) << "in the air";
+  EXPECT_EQ(floor.load(0.126, v, rolling, 0).force, Vector3::Zero()) << "in the air";
 }
 
 TEST(FloorContact, SpinIsBrakedByATorqueThatGoesWithTheLoad) {
-  const FloorContact floor(FloorContactParameters{}, 0.125, 0.0016, 0.02);
-  const FloorLoad load = floor.load(0.1245, Vector3::Zero(), {0, 0, 3});
+  const FloorContact floor(FloorContactParameters{}, 0.125, 0.02);
+  const FloorLoad load = floor.load(0.1245, Vector3::Zero(), {0, 0, 3}, 0.0016);
   EXPECT_NEAR(load.torque.z(), -0.0016 * load.force.z(), 1e-12);
 }
 

@@ -53,7 +53,7 @@ TEST(DescribePlant, TellsWhatIsOftenNotThere) {
   EXPECT_EQ(entryOf(plant, "plant.motion_capture.yaw_noise_deg").kind, KeyKind::kNumber);
   EXPECT_EQ(entryOf(plant, "plant.compliant_contact.tolerance").fallback, "1e-06");
   EXPECT_EQ(entryOf(plant, "plant.wheel_loop_insertion.gain").fallback, "1");
-  EXPECT_TRUE(entryOf(plant, "plant.spin_friction.torque_Nm").required);
+  EXPECT_TRUE(entryOf(plant, "plant.spin_friction.patches.0.torque_Nm").required);
   EXPECT_FALSE(entryOf(plant, "plant.spin_friction").required);
   const auto environment = described("environment", describeEnvironment);
   EXPECT_EQ(entryOf(environment, "environment.wall.height_m").fallback, "2");

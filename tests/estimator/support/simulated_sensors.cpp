@@ -73,6 +73,17 @@ void SimulatedSensors::advance() {
     frame_.joint_angle[i] = step > 0 ? step * std::round(wheel_angle_[i] / step) : wheel_angle_[i];
   }
   frame_.joint_velocity.head<kWheelCount>() = truth_.motion.wheel_rates;
+  frame_.joint_torque.head<kWheelCount>() = twist(mean.spin, truth_.motion.R_WB);
+}
+
+/// Of wheels that keep a ball spinning, or creeping, on a floor that holds 0.4 N m.
+Vector3 SimulatedSensors::twist(double spin, const Matrix3& R_WB) const {
+  const Vector3 up_B = R_WB.row(2);
+  Vector3 per_wheel;  // on the ball about the vertical
+  for (int i = 0; i < kWheelCount; ++i) {
+    per_wheel[i] = -robot_.ball.radius / robot_.wheels.radius * robot_.wheelAxle(i).dot(up_B);
+  }
+  return 0.4 * std::tanh(spin / 0.02) / per_wheel.squaredNorm() * per_wheel;
 }
 
 }  // namespace ballbot::test

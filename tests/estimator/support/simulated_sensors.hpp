@@ -55,6 +55,8 @@ class SimulatedSensors {
   bool atRest() const { return truth_.t_s <= script_.rest_s; }
 
  private:
+  Vector3 twist(double spin, const Matrix3& R_WB) const;
+
   MotionScript script_;
   RobotParameters robot_;
   SensorNoise noise_;

@@ -1,0 +1,43 @@
+#include "experiment/floor_report.hpp"
+
+#include <algorithm>
+
+#include "experiment/axes_builder.hpp"
+
+namespace ballbot {
+namespace {
+
+bool has(const LogTable* table, const std::string& column) {
+  return table != nullptr &&
+         std::any_of(table->columns.begin(), table->columns.end(),
+                     [&](const LogTable::Column& c) { return c.name == column; });
+}
+
+}  // namespace
+
+std::optional<PlotGroup> floorGroup(const std::vector<LogTable>& tables) {
+  const bool truth = has(findTable(tables, "truth"), "ball_spin_rate");
+  const bool estimate = has(findTable(tables, "estimate"), "ball_spin_rate");
+  if (!truth && !estimate) return std::nullopt;
+  AxesBuilder spin(tables, "spin of the ball", "rad/s");
+  AxesBuilder torque(tables, "size of the torque about the vertical", "N m");
+  if (truth) {
+    spin.line("truth", "ball_spin_rate", "true", SeriesStyle::kMeasured, 0);
+    torque.size("truth", "floor_spin_torque", "floor on the ball", SeriesStyle::kMeasured, 0)
+        .line("truth", "floor_spin_torque_held", "what the floor holds", SeriesStyle::kReference,
+              0);
+  }
+  if (estimate) {
+    spin.line("estimate", "ball_spin_rate", "estimated", SeriesStyle::kEstimated, 0);
+    torque.line("estimate", "floor_spin_torque_held", "what it is counted on to hold",
+                SeriesStyle::kEstimated, 1);
+  }
+  return PlotGroup{
+      "Ball about the vertical",
+      "The floor holds the ball's spin by friction: where the wheels ask for more than "
+      "it holds, the ball turns under the robot.",
+      {spin.axes(), torque.axes()},
+      {}};
+}
+
+}  // namespace ballbot

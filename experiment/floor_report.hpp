@@ -1,0 +1,14 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "experiment/log_tables.hpp"
+#include "report/write_report.hpp"
+
+namespace ballbot {
+
+/// The ball about the vertical, and what holds it; nothing of a ball that cannot spin.
+std::optional<PlotGroup> floorGroup(const std::vector<LogTable>& tables);
+
+}  // namespace ballbot
