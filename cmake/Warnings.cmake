@@ -1,5 +1,6 @@
 add_library(ballbot_warnings INTERFACE)
 add_library(ballbot::warnings ALIAS ballbot_warnings)
+# Without the signs of indices: docs/architecture.md#what-compilers-and-linters-hold says why.
 target_compile_options(ballbot_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                                                   -Wno-sign-conversion)
 if(BALLBOT_WARNINGS_AS_ERRORS)

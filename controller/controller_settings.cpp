@@ -7,6 +7,7 @@
 
 #include "controller/law_registry.hpp"
 #include "core/error.hpp"
+#include "core/foreign_code.hpp"
 
 namespace ballbot {
 namespace {
@@ -45,9 +46,9 @@ void forEachSection(Use&& use) {
 
 /// What cannot be balanced is a fault of the file in which it was asked for.
 template <typename Work>
-auto sayingWhere(const std::string& kind, Work&& work) {
+auto sayingWhere(const std::string& kind, const std::string& law, Work&& work) {
   try {
-    return work();
+    return doneBy(fmt::format("{}: the law '{}'", kind, law), work);
   } catch (const NumericalError& e) {
     throw InputError(fmt::format(
         "{}: no such law balances this robot: {}. Masses and lengths (in m) are in robot.urdf, the "
@@ -65,7 +66,12 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
   describeKnownPayload(reading, out.believed_robot.payload_mass);
   const LawKind& kind = describeKind(reading);
   out.kind_ = in.at("kind");
-  out.law = sayingWhere(out.kind_, [&] { return kind.read(in, out.believed_robot); });
+  out.law_ = kind.name;
+  out.law = sayingWhere(out.kind_, kind.name, [&] {
+    auto read = kind.read(in, out.believed_robot);
+    if (!read) throw std::logic_error("its LawKind::read() made nothing");
+    return read;
+  });
   ConfigReader tracker = in.child("tracker");
   out.tracker = TrackerConfig::read(tracker, robot);
   describeFloor(reading, out.floor);
@@ -76,9 +82,11 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
 }
 
 std::unique_ptr<ControlLaw> ControllerSettings::makeLaw() const {
-  auto made = sayingWhere(kind_, [&] { return law->makeLaw(); });
-  if (!made) throw std::logic_error(kind_ + ": its LawSettings::makeLaw() made nothing");
-  return made;
+  return sayingWhere(kind_, law_, [&] {
+    auto made = law->makeLaw();
+    if (!made) throw std::logic_error("its LawSettings::makeLaw() made nothing");
+    return made;
+  });
 }
 
 void describeController(ConfigVisitor& v, const RobotParameters& robot) {

@@ -36,6 +36,7 @@ struct ControllerSettings {
 
  private:
   std::string kind_;  ///< the key and where it was read
+  std::string law_;   ///< that stands there, and whose code may be anybody's
 };
 
 /// Tells of the whole `controller:` section, of every law and of what others read from it: its

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "controller/added_task_check.hpp"
 #include "controller/continuous_engine.hpp"
 #include "controller/discrete_engine.hpp"
 #include "controller/reference_limits.hpp"
@@ -239,6 +240,9 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
   report.predicted_decrease = slq.predicted_decrease;
   report.regularisation = slq.shift;
   report.terms = slq.terms;
+  if (slq.status == SlqStatus::kNotFinite) {
+    markNotFinite(*config_.schedule, toSeconds(now), x, report.terms);
+  }
   report.times = slq.times;
   return report;
 }

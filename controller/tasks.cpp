@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "controller/added_task_check.hpp"
 #include "controller/frame_task.hpp"
 #include "core/config_visitor.hpp"
 #include "core/error.hpp"
@@ -92,6 +93,8 @@ void TaskSchedule::describeAdded(ConfigVisitor& v) {
     v.section(may(kind.name.c_str(), kind.words.c_str()), [&](ConfigVisitor& in) {
       const std::shared_ptr<AddedTask> task = kind.make(robot_, rest_);
       task->describe(in);
+      in.check(
+          [&](const ConfigReader& section) { requireFinite(*task, rest_, section.at("weight")); });
       added.push_back(task);
     });
   }

@@ -78,6 +78,10 @@ void ConfigListing::integer(const ConfigKey& key, int& value, Range range) {
   add(key, KeyKind::kInteger, fmt::format("{}", value)).range = range;
 }
 
+void ConfigListing::whole(const ConfigKey& key, std::int64_t& value, Range range) {
+  add(key, KeyKind::kInteger, fmt::format("{}", value)).range = range;
+}
+
 void ConfigListing::boolean(const ConfigKey& key, bool& value) {
   add(key, KeyKind::kBoolean, value ? "true" : "false");
 }

@@ -49,8 +49,10 @@ class ConfigListing final : public ConfigVisitor {
   Range depending(Range) const override { return {}; }
   void number(const ConfigKey& key, double& value, Range range, double scale) override;
   void integer(const ConfigKey& key, int& value, Range range) override;
+  void whole(const ConfigKey& key, std::int64_t& value, Range range) override;
   void boolean(const ConfigKey& key, bool& value) override;
   void text(const ConfigKey& key, std::string& value) override;
+  void fileName(const ConfigKey& key, std::string& value) override { text(key, value); }
   void duration(const ConfigKey& key, SimDuration& value, Range range) override;
   void numbers(const ConfigKey& key, double* values, std::size_t count, Range range,
                double scale) override;

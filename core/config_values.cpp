@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/config_visitor.hpp"
 #include "core/error.hpp"
 #include "core/number_text.hpp"
 
@@ -45,6 +46,12 @@ std::string readFileName(ConfigReader& in, const std::string& key) {
         in.at(key), printable(name), kMostNameBytes));
   }
   return name;
+}
+
+void describeSeed(ConfigVisitor& v, std::uint64_t& seed) {
+  auto whole = static_cast<std::int64_t>(seed);
+  v.whole(may("seed", "of every noise source"), whole, {0, kInf});
+  seed = static_cast<std::uint64_t>(whole);
 }
 
 }  // namespace ballbot

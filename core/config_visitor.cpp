@@ -1,5 +1,7 @@
 #include "core/config_visitor.hpp"
 
+#include "core/config_values.hpp"
+
 namespace ballbot {
 
 void ConfigReading::number(const ConfigKey& key, double& value, Range range, double scale) {
@@ -14,12 +16,20 @@ void ConfigReading::integer(const ConfigKey& key, int& value, Range range) {
   if (!absent(key)) value = in_.integer(key.name, range);
 }
 
+void ConfigReading::whole(const ConfigKey& key, std::int64_t& value, Range range) {
+  if (!absent(key)) value = readWhole(in_, key.name, range);
+}
+
 void ConfigReading::boolean(const ConfigKey& key, bool& value) {
   if (!absent(key)) value = in_.boolean(key.name);
 }
 
 void ConfigReading::text(const ConfigKey& key, std::string& value) {
   if (!absent(key)) value = in_.text(key.name);
+}
+
+void ConfigReading::fileName(const ConfigKey& key, std::string& value) {
+  if (!absent(key)) value = readFileName(in_, key.name);
 }
 
 void ConfigReading::duration(const ConfigKey& key, SimDuration& value, Range range) {

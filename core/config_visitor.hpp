@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -36,8 +37,12 @@ class ConfigVisitor {
   /// @param scale  the member is scale times what stands in the file, in whose unit `range` is
   virtual void number(const ConfigKey& key, double& value, Range range = {}, double scale = 1) = 0;
   virtual void integer(const ConfigKey& key, int& value, Range range = {}) = 0;
+  /// One too large for an int, such as a seed: up to kLargestWhole to either side.
+  virtual void whole(const ConfigKey& key, std::int64_t& value, Range range = {}) = 0;
   virtual void boolean(const ConfigKey& key, bool& value) = 0;
   virtual void text(const ConfigKey& key, std::string& value) = 0;
+  /// Text that can name a file or a folder, and no path that leads elsewhere.
+  virtual void fileName(const ConfigKey& key, std::string& value) = 0;
   /// The key ends in _s, _ms or _us.
   virtual void duration(const ConfigKey& key, SimDuration& value, Range range = {}) = 0;
   /// A list of exactly `count` numbers.
@@ -52,6 +57,10 @@ class ConfigVisitor {
   /// where it is there.
   virtual void other(const ConfigKey& key, const char* kind,
                      const std::function<void(ConfigReader&)>& read) = 0;
+
+  /// Relations between values that were told before: a reader calls it, to throw what is wrong with
+  /// the place of a key (ConfigReader::at).
+  virtual void check(const std::function<void(const ConfigReader&)>& relation) { (void)relation; }
 
   /// A range that another value decides: a reader holds to it, a list does not know it.
   virtual Range depending(Range range) const { return range; }
@@ -85,8 +94,10 @@ class ConfigReading final : public ConfigVisitor {
 
   void number(const ConfigKey& key, double& value, Range range, double scale) override;
   void integer(const ConfigKey& key, int& value, Range range) override;
+  void whole(const ConfigKey& key, std::int64_t& value, Range range) override;
   void boolean(const ConfigKey& key, bool& value) override;
   void text(const ConfigKey& key, std::string& value) override;
+  void fileName(const ConfigKey& key, std::string& value) override;
   void duration(const ConfigKey& key, SimDuration& value, Range range) override;
   void numbers(const ConfigKey& key, double* values, std::size_t count, Range range,
                double scale) override;
@@ -94,6 +105,7 @@ class ConfigReading final : public ConfigVisitor {
   void list(const ConfigKey& key, const std::function<void(ConfigVisitor&)>& inner) override;
   void other(const ConfigKey& key, const char* kind,
              const std::function<void(ConfigReader&)>& read) override;
+  void check(const std::function<void(const ConfigReader&)>& relation) override { relation(in_); }
   void chooseIndex(const ConfigKey& key, std::size_t& index,
                    const std::vector<std::string>& names) override;
 

@@ -22,6 +22,11 @@ std::uint64_t kindHash(const std::string& kind) { return hash64(kind.data(), kin
 
 }  // namespace
 
+void BlobWriter::putBytes(const void* bytes, std::size_t count) {
+  const auto* first = static_cast<const std::uint8_t*>(bytes);
+  body_.insert(body_.end(), first, first + count);
+}
+
 void BlobWriter::putDoubles(const double* values, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) put(values[i]);
 }

@@ -10,42 +10,10 @@
 
 namespace ballbot {
 
-enum class Lifecycle::Call : std::uint8_t {
-  kEnterInitializationMode,
-  kExitInitializationMode,
-  kDoStep,
-  kTerminate,
-  kRead,
-  kSaveState,
-  kRestoreState,
-};
-
 namespace {
 
 constexpr const char* kBlobKind = "participant";
 constexpr std::uint32_t kBlobVersion = 1;
-
-constexpr unsigned bit(LifecycleState state) { return 1U << static_cast<unsigned>(state); }
-constexpr unsigned kInstantiated = bit(LifecycleState::kInstantiated);
-constexpr unsigned kInitialization = bit(LifecycleState::kInitialization);
-constexpr unsigned kStep = bit(LifecycleState::kStep);
-constexpr unsigned kTerminated = bit(LifecycleState::kTerminated);
-constexpr unsigned kFailed = bit(LifecycleState::kFailed);
-
-struct Rule {
-  const char* name;
-  unsigned allowed;
-};
-// In the order of Lifecycle::Call.
-constexpr Rule kRules[] = {
-    {"enterInitializationMode", kInstantiated},
-    {"exitInitializationMode", kInitialization},
-    {"doStep", kStep},
-    {"terminate", kStep},
-    {"reading sensors, truth or digest", kStep | kTerminated},
-    {"saveState", kInitialization | kStep | kTerminated},
-    {"restoreState", kInitialization | kStep | kTerminated | kFailed},
-};
 
 const char* wayOut(LifecycleState state) {
   switch (state) {
@@ -65,11 +33,10 @@ const char* wayOut(LifecycleState state) {
 
 }  // namespace
 
-void Lifecycle::demand(Call call) const {
-  const Rule& rule = kRules[static_cast<std::size_t>(call)];
-  if ((rule.allowed & bit(state_)) != 0) return;
-  throw CallOrderError(toText(state_), rule.name,
-                       fmt::format("{}: {} is not allowed in state '{}'; {}", name(), rule.name,
+void Lifecycle::demand(LifecycleCall call) const {
+  if (allows(state_, call)) return;
+  throw CallOrderError(toText(state_), toText(call),
+                       fmt::format("{}: {} is not allowed in state '{}'; {}", name(), toText(call),
                                    toText(state_), wayOut(state_)));
 }
 
@@ -85,21 +52,22 @@ void Lifecycle::attempt(Work&& work) {
 }
 
 void Lifecycle::requirePossible(const std::string& when, SimTime time) const {
-  const std::string bad_sensor = firstImpossible(participant_.sensors(), time);
+  std::string bad_sensor = firstImpossible(participant_.sensors(), time);
+  if (bad_sensor.empty()) bad_sensor = firstNonFinite(participant_.added(AddedTo::kSensors));
   if (bad_sensor.empty()) return;
   // Our own plant finds its NaN before it answers.
   throw LostParticipantError(name(), fmt::format("{}: {}: {}", name(), when, bad_sensor));
 }
 
 void Lifecycle::enterInitializationMode(SimTime start) {
-  demand(Call::kEnterInitializationMode);
+  demand(LifecycleCall::kEnterInitializationMode);
   attempt([&] { participant_.enterInitializationMode(start); });
   time_ = start;
   state_ = LifecycleState::kInitialization;
 }
 
 void Lifecycle::exitInitializationMode() {
-  demand(Call::kExitInitializationMode);
+  demand(LifecycleCall::kExitInitializationMode);
   attempt([&] {
     participant_.exitInitializationMode();
     requirePossible("at the start", time_);
@@ -108,7 +76,7 @@ void Lifecycle::exitInitializationMode() {
 }
 
 void Lifecycle::doStep(SimTime now, SimDuration step, const ActuatorCommand& command) {
-  demand(Call::kDoStep);
+  demand(LifecycleCall::kDoStep);
   if (now != time_) {
     throw CallOrderError(toText(state_), "doStep",
                          fmt::format("{}: doStep from {}, but it stands at {}", name(),
@@ -132,7 +100,7 @@ void Lifecycle::doStep(SimTime now, SimDuration step, const ActuatorCommand& com
 }
 
 void Lifecycle::terminate() {
-  demand(Call::kTerminate);
+  demand(LifecycleCall::kTerminate);
   attempt([&] { participant_.terminate(); });
   state_ = LifecycleState::kTerminated;
 }
@@ -144,17 +112,17 @@ void Lifecycle::reset() {
 }
 
 const SensorFrame& Lifecycle::sensors() const {
-  demand(Call::kRead);
+  demand(LifecycleCall::kRead);
   return participant_.sensors();
 }
 
 std::optional<TruthFrame> Lifecycle::truth() const {
-  demand(Call::kRead);
+  demand(LifecycleCall::kRead);
   return participant_.truth();
 }
 
 std::uint64_t Lifecycle::stateDigest() const {
-  demand(Call::kRead);
+  demand(LifecycleCall::kRead);
   return participant_.stateDigest();
 }
 
@@ -172,12 +140,12 @@ struct Lifecycle::Saved {
 };
 
 StateBlob Lifecycle::saveState() const {
-  demand(Call::kSaveState);
+  demand(LifecycleCall::kSaveState);
   return saveStateOf(Saved{state_, time_, participant_.saveState()}, kBlobKind, kBlobVersion);
 }
 
 void Lifecycle::restoreState(const StateBlob& blob) {
-  demand(Call::kRestoreState);
+  demand(LifecycleCall::kRestoreState);
   Saved saved;
   restoreStateOf(saved, blob, kBlobKind, kBlobVersion);
   // A refused blob leaves the participant as it was, so the lifecycle state stays, too.

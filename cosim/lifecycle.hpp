@@ -58,9 +58,8 @@ class Lifecycle final : public Participant {
   std::uint64_t stateDigest() const override;
 
  private:
-  enum class Call : std::uint8_t;
   struct Saved;
-  void demand(Call call) const;
+  void demand(LifecycleCall call) const;
   void requirePossible(const std::string& when, SimTime time) const;
   template <typename Work>
   void attempt(Work&& work);

@@ -1,7 +1,6 @@
 #include "cosim/remote_participant.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -203,15 +202,14 @@ void RemoteParticipant::adoptReply(SimTime expected) {
 
 void RemoteParticipant::adoptAdded(AddedTo frame, const std::vector<double>& values) {
   AddedSignals& added = options_.added[frame];
-  const bool finite =
-      std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-  if (values.size() != added.list.size() || !finite) {
-    throwUnbelievable(fmt::format("{} values beside its {}{}, and the configuration has {}",
-                                  values.size(), frame == AddedTo::kTruth ? "truth" : "sensors",
-                                  finite ? "" : ", of which not all are finite",
-                                  added.list.size()));
+  const char* beside = frame == AddedTo::kTruth ? "truth" : "sensors";
+  if (values.size() != added.list.size()) {
+    throwUnbelievable(fmt::format("{} values beside its {}, and the configuration has {}",
+                                  values.size(), beside, added.list.size()));
   }
   added.values = values;
+  const std::string bad = firstNonFinite(added);
+  if (!bad.empty()) throwUnbelievable(fmt::format("beside its {}, {}", beside, bad));
 }
 
 void RemoteParticipant::throwUnbelievable(const std::string& what) const {

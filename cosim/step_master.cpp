@@ -47,8 +47,7 @@ StepMaster::End StepMaster::run() {
 }
 
 void StepMaster::initialize() {
-  participant_->enterInitializationMode(options_.start);
-  participant_->exitInitializationMode();
+  participant_->initialize(options_.start);
   initialized_ = true;
 }
 

@@ -168,8 +168,7 @@ void StepServer::perform(std::int8_t kind) {
 
 void StepServer::start(SimTime time) {
   if (participant_.state() != LifecycleState::kInstantiated) participant_.reset();
-  participant_.enterInitializationMode(time);
-  participant_.exitInitializationMode();
+  participant_.initialize(time);
 }
 
 // The session ends even if the participant cannot.

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
+#include "core/foreign_code.hpp"
 #include "cosim/recorder.hpp"
 #include "cosim/step_master.hpp"
 #include "experiment/checkpoint_files.hpp"
@@ -63,9 +65,11 @@ bool askForFall(const std::vector<MetricLimit>& requirements) {
 std::unique_ptr<SteppedController> makeController(const RunConfig& config, EventCalendar& calendar,
                                                   const ControllerMaker& make) {
   if (!make) return std::make_unique<RobotController>(config, calendar);
-  auto made = make(config, calendar);
-  if (!made) throw std::logic_error("RunOptions::make_controller made nothing");
-  return made;
+  return doneBy("RunOptions::make_controller", [&] {
+    auto made = make(config, calendar);
+    if (!made) throw std::logic_error("it made nothing");
+    return made;
+  });
 }
 
 /// Every metric that a run can have. @throw InputError if one is asked for that it cannot have.
@@ -96,6 +100,17 @@ bool passes(const RunResult& result, const std::vector<MetricLimit>& requirement
     if (!row.passed) return false;
   }
   return result.fell ? askForFall(requirements) : result.completed;
+}
+
+/// Which of the costs that were added to a plan is not finite, in words; empty: none.
+std::string notFiniteIn(const Tick& tick) {
+  const AddedSignals* plan = tick.added[AddedTo::kPlan];
+  if (!tick.control.has_plan || plan == nullptr) return "";
+  const AddedSignals& added = *plan;
+  for (std::size_t i = 0; i < added.values.size(); ++i) {
+    if (!std::isfinite(added.values[i])) return added.list[i].words + " is not finite";
+  }
+  return "";
 }
 
 /// Saves, kills the plant, starts another and continues, between two events.
@@ -138,7 +153,9 @@ RunResult runInFolder(const RunConfig& config, const RunFolder& folder, const Ru
   master_options.end = kSimStart + scenario.duration;
   master_options.stop = options.stop;
   StepMaster master(plant.participant(), controller, calendar, &recorder, master_options);
+  std::string plan_trouble;
   master.setObserver([&](const Tick& tick) {
+    if (plan_trouble.empty()) plan_trouble = notFiniteIn(tick);
     metrics.add(tick);
     if (tick.control.has_plan) plan_times.push_back(tick.control.plan_timing);
     if (options.progress) options.progress(tick.time);
@@ -178,6 +195,7 @@ RunResult runInFolder(const RunConfig& config, const RunFolder& folder, const Ru
   result.verdicts = judge(scenario.requirements, result.metrics, known_metrics);
   const auto fallback = result.metrics.find(kFallbackPercent);
   result.no_plan_acted = fallback != result.metrics.end() && fallback->second == 100;
+  result.plan_trouble = plan_trouble;
   result.passed = passes(result, scenario.requirements);
 
   writeSummary(scenario, result, folder);

@@ -65,6 +65,8 @@ struct RunResult {
   /// An LQR stood in all the time for an MPC that never had a plan: such a run does not pass, for
   /// it says nothing of the controller it is about.
   bool no_plan_acted = false;
+  /// What was not finite of a plan, if it is known: "cost of the task 'lean' is not finite".
+  std::string plan_trouble;
   SimTime end{};
   std::string trajectory_digest, log_digest;
   std::map<std::string, double> metrics;

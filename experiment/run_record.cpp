@@ -53,6 +53,7 @@ Json summaryJson(const Scenario& scenario, const RunResult& result) {
   s["fell"] = result.fell;
   s["completed"] = result.completed;
   s["no_plan_acted"] = result.no_plan_acted;
+  if (!result.plan_trouble.empty()) s["plan_trouble"] = result.plan_trouble;
   s["simulated_s"] = decimalSeconds(toNs(result.end));
   s["trajectory_digest"] = result.trajectory_digest;
   s["log_digest"] = result.log_digest;

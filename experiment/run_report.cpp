@@ -208,7 +208,10 @@ std::vector<ReportPhase> phasesOf(const RunConfig& config) {
 
 std::string verdictText(const RunResult& result) {
   if (result.fell) return fmt::format("fell at {:.2f} s", toSeconds(result.end));
-  if (result.no_plan_acted) return "no plan ever acted";
+  if (result.no_plan_acted) {
+    return "no plan ever acted" +
+           (result.plan_trouble.empty() ? "" : fmt::format(" ({})", result.plan_trouble));
+  }
   std::size_t met = 0;
   for (const VerdictRow& row : result.verdicts) met += row.passed ? 1 : 0;
   return fmt::format("{} of {} requirements met", met, result.verdicts.size());

@@ -79,6 +79,13 @@ void Rates::describe(ConfigVisitor& v) {
              {0, 1e6});
 }
 
+void Scenario::describe(ConfigVisitor& v) {
+  v.fileName(must("name", "of the run's folder"), name);
+  v.text(may("summary", "a line for people"), summary);
+  v.duration(must("duration_s", "simulated time"), duration, {1e-3, 1e5});
+  describeSeed(v, seed);
+}
+
 const ConfigNode& Scenario::section(const std::string& section_name) const {
   const ConfigNode* node = tree.find(section_name);
   if (!node) {
@@ -128,10 +135,7 @@ Scenario readScenario(ConfigNode tree, const std::vector<std::string>& overrides
   }
 
   ConfigReader in(s.tree);
-  s.name = readFileName(in, "name");
-  s.summary = in.textOr("summary", "");
-  s.duration = in.duration("duration_s", {1e-3, 1e5});
-  s.seed = static_cast<std::uint64_t>(readWhole(in, "seed", {0, kLargestWhole}));
+  readDescribed(in, s);
   for (const char* section : kSections) in.raw(section);
   if (in.has("rates")) {
     ConfigReader rates = in.child("rates");

@@ -44,6 +44,9 @@ struct Scenario {
   ConfigNode tree = ConfigNode::map({});
   std::string urdf_path;
 
+  /// Tells of what stands in no section: name, summary, duration, seed.
+  void describe(ConfigVisitor& v);
+
   /// The section `name`. @throw InputError if it is missing.
   const ConfigNode& section(const std::string& name) const;
 

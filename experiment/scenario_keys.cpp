@@ -1,14 +1,9 @@
 #include "experiment/scenario_keys.hpp"
 
-#include <algorithm>
-#include <set>
-
 #include <fmt/format.h>
 
 #include "controller/controller_settings.hpp"
 #include "core/angle.hpp"
-#include "core/error.hpp"
-#include "core/nearest_word.hpp"
 #include "estimator/estimator_registry.hpp"
 #include "experiment/recording.hpp"
 #include "experiment/scenario.hpp"
@@ -50,12 +45,7 @@ RobotParameters plainRobot() {
 
 void describeScenario(ConfigVisitor& v) {
   Scenario s;
-  int seed = 1;
-  s.tree = ConfigNode::map({});
-  v.text(must("name", "of the run's folder"), s.name);
-  v.text(may("summary", "a line for people"), s.summary);
-  v.duration(must("duration_s", "simulated time"), s.duration, {1e-3, 1e5});
-  v.integer(may("seed", "of every noise source"), seed, {0, kInf});
+  s.describe(v);
   v.section(must("robot", "what it is made of"), [](ConfigVisitor& in) {
     describeRobot(in);
     in.section(may("sensors", "figures of its sensors"), describeSensors);
@@ -77,60 +67,15 @@ void describeScenario(ConfigVisitor& v) {
           "list of {name, file, parameters, connections}, see docs/fmu.md", [](ConfigReader&) {});
 }
 
-/// "pushes.3.force_N" as the listing has it: "pushes.0.force_N".
-std::string asListed(const std::string& path) {
-  std::string out;
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t dot = std::min(path.find('.', begin), path.size());
-    const std::string word = path.substr(begin, dot - begin);
-    const bool number = !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
-    out += (out.empty() ? "" : ".") + (number ? std::string("0") : word);
-    begin = dot + 1;
-  }
-  return out;
-}
-
-[[noreturn]] void refuse(const std::string& path) {
-  std::set<std::string> whole, last;
-  const std::string name = path.substr(path.rfind('.') + 1);
-  std::string same_name;
-  for (const KeyEntry& entry : scenarioKeys()) {
-    whole.insert(entry.path);
-    if (same_name.empty() && entry.path.substr(entry.path.rfind('.') + 1) == name) {
-      same_name = entry.path;
-    }
-  }
-  const std::string near = same_name.empty() ? nearestWord(path, whole) : same_name;
-  throw InputError(
-      fmt::format("no scenario has a key '{}'{} (`ballbot explain` lists the sections)", path,
-                  near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
-}
-
 }  // namespace
 
-const std::vector<KeyEntry>& scenarioKeys() {
-  static const std::vector<KeyEntry> keys = [] {
+const KeyBook& scenarioKeys() {
+  static const KeyBook book = [] {
     ConfigListing listing;
     describeScenario(listing);
-    return listing.take();
+    return KeyBook{"scenario", listing.take()};
   }();
-  return keys;
-}
-
-std::vector<KeyEntry> keysAt(const std::string& path) {
-  std::string wanted = asListed(path);
-  const std::string item = ".0";  // an item of a list is what the list is of
-  if (wanted.size() > item.size() &&
-      wanted.compare(wanted.size() - item.size(), item.size(), item) == 0) {
-    wanted.resize(wanted.size() - item.size());
-  }
-  std::vector<KeyEntry> out;
-  for (const KeyEntry& entry : scenarioKeys()) {
-    const bool below = entry.path.compare(0, wanted.size() + 1, wanted + ".") == 0;
-    if (entry.path == wanted || below) out.push_back(entry);
-  }
-  if (out.empty()) refuse(path);
-  return out;
+  return book;
 }
 
 }  // namespace ballbot

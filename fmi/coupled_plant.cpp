@@ -59,7 +59,7 @@ void CoupledPlant::doStep(SimTime now, SimDuration step, const ActuatorCommand& 
   }
   before_ = outputs_;
   for (std::size_t i = 0; i < models_.size(); ++i) {
-    models_[i]->step(now, step, inputs_[i]);
+    models_[i]->doStep(now, step, inputs_[i]);
     outputs_[i] = models_[i]->outputs();
   }
   now_ = now + step;
@@ -131,14 +131,14 @@ struct CoupledPlant::State {
 
 StateBlob CoupledPlant::saveState() const {
   State state{outputs_, before_, now_, {}};
-  for (const auto& model : models_) state.models.push_back(model->save());
+  for (const auto& model : models_) state.models.push_back(model->saveState());
   return saveStateOf(state, kBlobKind, kBlobVersion);
 }
 
 void CoupledPlant::restoreState(const StateBlob& blob) {
   State next{outputs_, before_, now_, std::vector<StateBlob>(models_.size())};
   restoreStateOf(next, blob, kBlobKind, kBlobVersion);
-  for (std::size_t i = 0; i < models_.size(); ++i) models_[i]->restore(next.models[i]);
+  for (std::size_t i = 0; i < models_.size(); ++i) models_[i]->restoreState(next.models[i]);
   now_ = next.now;
   outputs_ = std::move(next.outputs);
   before_ = std::move(next.before);
@@ -146,9 +146,9 @@ void CoupledPlant::restoreState(const StateBlob& blob) {
 }
 
 std::uint64_t CoupledPlant::stateDigest() const {
-  if (models_.size() == 1) return models_.front()->digest();
+  if (models_.size() == 1) return models_.front()->stateDigest();
   std::vector<std::uint64_t> digests;
-  for (const auto& model : models_) digests.push_back(model->digest());
+  for (const auto& model : models_) digests.push_back(model->stateDigest());
   return hash64(digests.data(), digests.size() * sizeof(std::uint64_t));
 }
 

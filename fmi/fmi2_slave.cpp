@@ -49,13 +49,17 @@ class Fmi2Slave final : public FmuSlave {
   }
   ~Fmi2Slave() override { fmu_.fmi2FreeInstance(instance_); }
 
-  void initialize(SimTime start) override {
+  std::string name() const override { return file_; }
+
+  void enterInitializationMode(SimTime start) override {
     check(fmu_.fmi2SetupExperiment(instance_, fmi2False, 0, secondsOf(start), fmi2False, 0),
           "fmi2SetupExperiment");
     check(fmu_.fmi2EnterInitializationMode(instance_), "fmi2EnterInitializationMode");
+  }
+  void exitInitializationMode() override {
     check(fmu_.fmi2ExitInitializationMode(instance_), "fmi2ExitInitializationMode");
   }
-  void step(SimTime now, SimDuration step) override {
+  void doStep(SimTime now, SimDuration step) override {
     check(fmu_.fmi2DoStep(instance_, secondsOf(now), secondsOf(kSimStart + step), fmi2False),
           "fmi2DoStep");
   }
@@ -98,7 +102,7 @@ class Fmi2Slave final : public FmuSlave {
     }
   }
 
-  StateBlob save() override {
+  StateBlob saveState() const override {
     fmi2FMUstate state = nullptr;
     check(fmu_.fmi2GetFMUstate(instance_, &state), "fmi2GetFMUstate");
     std::size_t size = 0;
@@ -109,7 +113,7 @@ class Fmi2Slave final : public FmuSlave {
     check(fmu_.fmi2FreeFMUstate(instance_, &state), "fmi2FreeFMUstate");
     return blob;
   }
-  void restore(const StateBlob& blob) override {
+  void restoreState(const StateBlob& blob) override {
     fmi2FMUstate state = nullptr;
     check(fmu_.fmi2DeSerializeFMUstate(instance_, reinterpret_cast<const char*>(blob.data()),
                                        blob.size(), &state),
@@ -126,7 +130,7 @@ class Fmi2Slave final : public FmuSlave {
     throw NumericalError(
         fmt::format("{}: '{}' would be set to {}; it {}", file_, v.name, value, refusal));
   }
-  void check(fmi2Status status, const char* call) {
+  void check(fmi2Status status, const char* call) const {
     if (status == fmi2OK || status == fmi2Warning) return;
     fmu_.library.require({call});  // says so if that is why
     throw NumericalError(fmt::format("{}: {} returned {}: {}", file_, call,

@@ -43,12 +43,16 @@ class Fmi3Slave final : public FmuSlave {
   }
   ~Fmi3Slave() override { fmu_.fmi3FreeInstance(instance_); }
 
-  void initialize(SimTime start) override {
+  std::string name() const override { return file_; }
+
+  void enterInitializationMode(SimTime start) override {
     check(fmu_.fmi3EnterInitializationMode(instance_, false, 0, secondsOf(start), false, 0),
           "fmi3EnterInitializationMode");
+  }
+  void exitInitializationMode() override {
     check(fmu_.fmi3ExitInitializationMode(instance_), "fmi3ExitInitializationMode");
   }
-  void step(SimTime now, SimDuration step) override {
+  void doStep(SimTime now, SimDuration step) override {
     bool event = false, terminate = false, early = false;
     double reached = 0;
     check(fmu_.fmi3DoStep(instance_, secondsOf(now), secondsOf(kSimStart + step), false, &event,
@@ -75,7 +79,7 @@ class Fmi3Slave final : public FmuSlave {
     }
   }
 
-  StateBlob save() override {
+  StateBlob saveState() const override {
     fmi3FMUState state = nullptr;
     check(fmu_.fmi3GetFMUState(instance_, &state), "fmi3GetFMUState");
     std::size_t size = 0;
@@ -85,7 +89,7 @@ class Fmi3Slave final : public FmuSlave {
     check(fmu_.fmi3FreeFMUState(instance_, &state), "fmi3FreeFMUState");
     return blob;
   }
-  void restore(const StateBlob& blob) override {
+  void restoreState(const StateBlob& blob) override {
     fmi3FMUState state = nullptr;
     check(fmu_.fmi3DeserializeFMUState(instance_, blob.data(), blob.size(), &state),
           "fmi3DeserializeFMUState");
@@ -190,7 +194,7 @@ class Fmi3Slave final : public FmuSlave {
                     "connected",
                     file_, v.name, v.type));
   }
-  void check(fmi3Status status, const char* call) {
+  void check(fmi3Status status, const char* call) const {
     if (status == fmi3OK || status == fmi3Warning) return;
     fmu_.library.require({call});  // says so if that is why
     throw NumericalError(fmt::format("{}: {} returned {}: {}", file_, call,

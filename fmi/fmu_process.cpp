@@ -100,7 +100,7 @@ void FmuProcess::end() {
   ::close(socket_);
 }
 
-void FmuProcess::initialize(SimTime start) {
+void FmuProcess::enterInitializationMode(SimTime start) {
   BlobWriter out = request(FmuRequest::kInitialize);
   out.put(toNs(start));
   ask(out, "initialize");
@@ -112,7 +112,7 @@ void FmuProcess::evaluate(const std::vector<double>& inputs) {
   ask(out, "evaluate");
 }
 
-void FmuProcess::step(SimTime now, SimDuration step, const std::vector<double>& inputs) {
+void FmuProcess::doStep(SimTime now, SimDuration step, const std::vector<double>& inputs) {
   if (only_step_ == SimDuration::zero()) only_step_ = step;
   if (!use_.variable_steps && step != only_step_) {
     throw InputError(
@@ -134,7 +134,7 @@ void FmuProcess::reset() {
   ask(request(FmuRequest::kReset), "reset");
 }
 
-StateBlob FmuProcess::save() {
+StateBlob FmuProcess::saveState() const {
   if (!use_.saves_state) {
     throw InputError(
         fmt::format("FMU '{}' cannot save its state (it does not say that it can get, "
@@ -144,13 +144,13 @@ StateBlob FmuProcess::save() {
   return ask(request(FmuRequest::kSave), "save its state");
 }
 
-void FmuProcess::restore(const StateBlob& blob) {
+void FmuProcess::restoreState(const StateBlob& blob) {
   BlobWriter out = request(FmuRequest::kRestore);
   out.putBlob(blob);
   ask(out, "restore its state");
 }
 
-StateBlob FmuProcess::ask(const BlobWriter& request, const char* what) {
+StateBlob FmuProcess::ask(const BlobWriter& request, const char* what) const {
   StateBlob answer;
   WireEnd end = sendBlob(socket_, request.seal(kFmuRequestKind, kFmuWireVersion));
   if (end == WireEnd::kOk) end = receiveBlob(socket_, answer, use_.patience);
@@ -185,11 +185,11 @@ StateBlob FmuProcess::ask(const BlobWriter& request, const char* what) {
   return state;
 }
 
-std::uint64_t FmuProcess::digest() const {
+std::uint64_t FmuProcess::stateDigest() const {
   return use_.digest.empty() ? hash64(outputs_.data(), outputs_.size() * sizeof(double)) : digest_;
 }
 
-void FmuProcess::lost(const std::string& how) {
+void FmuProcess::lost(const std::string& how) const {
   std::string death;
   int status = 0;
   // The end of the socket comes a moment before the end of the process.

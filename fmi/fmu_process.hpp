@@ -45,33 +45,37 @@ class FmuProcess final : public SteppedModel {
   FmuProcess& operator=(const FmuProcess&) = delete;
 
   pid_t pid() const { return pid_; }
-  /// Parameters, then initialisation at `start`; outputs() are valid after it.
-  void initialize(SimTime start) override;
+  std::string name() const override { return use_.name; }
+  /// One request for both ends of it: parameters, then initialisation at `start`. outputs() are
+  /// valid after it.
+  void enterInitializationMode(SimTime start) override;
+  void exitInitializationMode() override {}
   void evaluate(const std::vector<double>& inputs) override;
   /// @throw InputError also if the FMU takes steps of one size only and this is another.
-  void step(SimTime now, SimDuration step, const std::vector<double>& inputs) override;
+  void doStep(SimTime now, SimDuration step, const std::vector<double>& inputs) override;
   void terminate() override;
   void reset() override;
-  StateBlob save() override;
-  void restore(const StateBlob& blob) override;
+  StateBlob saveState() const override;
+  void restoreState(const StateBlob& blob) override;
 
   /// Values of the output ports, one after the other.
   const std::vector<double>& outputs() const override { return outputs_; }
-  std::uint64_t digest() const override;
+  std::uint64_t stateDigest() const override;
 
  private:
   void start(const std::string& program);
   void open();
   void end();
-  StateBlob ask(const BlobWriter& request, const char* what);
-  [[noreturn]] void lost(const std::string& how);
+  // What answers bring is no state of this end: to save is to ask.
+  StateBlob ask(const BlobWriter& request, const char* what) const;
+  [[noreturn]] void lost(const std::string& how) const;
 
   FmuUse use_;
-  pid_t pid_ = -1;
+  mutable pid_t pid_ = -1;
   int socket_ = -1;
   SimDuration only_step_{};  ///< of an FMU that takes steps of one size; zero before the first
-  std::vector<double> outputs_;
-  std::uint64_t digest_ = 0;
+  mutable std::vector<double> outputs_;
+  mutable std::uint64_t digest_ = 0;
 };
 
 /// The child's end: serves the FMU over an open socket until the other end closes it. Returns the

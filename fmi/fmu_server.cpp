@@ -47,9 +47,9 @@ class FmuServer {
         slave_->reset();
         break;
       case FmuRequest::kSave:
-        return slave_->save();
+        return slave_->saveState();
       case FmuRequest::kRestore:
-        slave_->restore(in.getBlob());
+        slave_->restoreState(in.getBlob());
         takeOutputs();
         break;
     }
@@ -85,7 +85,7 @@ class FmuServer {
     const SimTime now = simTimeFromNs(in.get<std::int64_t>());
     const SimDuration length{in.get<std::int64_t>()};
     setInputs(in.getVector());
-    slave_->step(now, length);
+    slave_->doStep(now, length);
     takeOutputs();
   }
   void setInputs(const std::vector<double>& values) {

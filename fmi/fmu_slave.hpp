@@ -4,32 +4,23 @@
 #include <memory>
 #include <string>
 
-#include "core/state_blob.hpp"
-#include "core/time.hpp"
+#include "cosim/stepped.hpp"
 #include "fmi/fmu_ports.hpp"
 
 namespace ballbot {
 
-/// One instance of an FMU in this process, FMI 2 or 3 behind one face. Whoever calls it lives with
+/// One instance of an FMU in this process, FMI 2 or 3 behind one face: values go in and out port by
+/// port. It is restored in any state of its life. Whoever calls it lives with
 /// what a foreign shared object can do to a process; see fmu_process.hpp.
 ///
 /// All calls throw InputError or NumericalError when the FMU returns an error, with what it logged.
-class FmuSlave {
+class FmuSlave : public Stepped {
  public:
-  virtual ~FmuSlave() = default;
+  virtual void doStep(SimTime now, SimDuration step) = 0;
 
-  /// Parameters are set before this.
-  virtual void initialize(SimTime start) = 0;
-  virtual void step(SimTime now, SimDuration step) = 0;
-  virtual void terminate() = 0;
-  virtual void reset() = 0;
-
+  /// Of one port; parameters are set before initialisation.
   virtual void get(const FmuPort& port, double* values) = 0;
   virtual void set(const FmuPort& port, const double* values) = 0;
-
-  virtual StateBlob save() = 0;
-  /// In any state; leads into the state that was saved.
-  virtual void restore(const StateBlob& blob) = 0;
 };
 
 /// Loads and instantiates an unpacked FMU. What it says that is no error goes to `say`.

@@ -14,12 +14,12 @@ NativePlantModel::NativePlantModel(const PlantConfig& config)
   observe();
 }
 
-void NativePlantModel::initialize(SimTime start) {
+void NativePlantModel::enterInitializationMode(SimTime start) {
   plant_.reset(start);
   observe();
 }
 
-void NativePlantModel::step(SimTime now, SimDuration step, const std::vector<double>& inputs) {
+void NativePlantModel::doStep(SimTime now, SimDuration step, const std::vector<double>& inputs) {
   ActuatorCommand command;
   ExternalForces forces;
   writeSignals(commandSignals(), inputs.data(), command);
@@ -29,7 +29,7 @@ void NativePlantModel::step(SimTime now, SimDuration step, const std::vector<dou
   observe();
 }
 
-void NativePlantModel::restore(const StateBlob& blob) {
+void NativePlantModel::restoreState(const StateBlob& blob) {
   plant_.restoreState(blob);
   observe();
 }

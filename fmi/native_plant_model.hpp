@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "fmi/coupling_config.hpp"
 #include "fmi/stepped_model.hpp"
 #include "plant/plant.hpp"
 
@@ -13,17 +14,19 @@ class NativePlantModel final : public SteppedModel {
  public:
   explicit NativePlantModel(const PlantConfig& config);
 
-  void initialize(SimTime start) override;
+  std::string name() const override { return kPlantName; }
+  void enterInitializationMode(SimTime start) override;
+  void exitInitializationMode() override {}
   /// No output of the plant follows from an input at once.
   void evaluate(const std::vector<double>&) override {}
-  void step(SimTime now, SimDuration step, const std::vector<double>& inputs) override;
+  void doStep(SimTime now, SimDuration step, const std::vector<double>& inputs) override;
   void terminate() override {}
   void reset() override { plant_.reset(kSimStart); }
-  StateBlob save() override { return plant_.saveState(); }
-  void restore(const StateBlob& blob) override;
+  StateBlob saveState() const override { return plant_.saveState(); }
+  void restoreState(const StateBlob& blob) override;
   const std::vector<double>& outputs() const override { return outputs_; }
   const AddedSignals& added(AddedTo frame) const { return plant_.added(frame); }
-  std::uint64_t digest() const override { return plant_.stateDigest(); }
+  std::uint64_t stateDigest() const override { return plant_.stateDigest(); }
 
  private:
   void observe();

@@ -88,14 +88,14 @@ PlantFmu::PlantFmu(const std::string& resources, const std::string& token, int f
 
 PlantFmu::~PlantFmu() = default;
 
-void PlantFmu::demand(const char* call, std::initializer_list<LifecycleState> allowed) const {
-  if (std::find(allowed.begin(), allowed.end(), mode_) != allowed.end()) return;
-  throw CallOrderError(toText(mode_), call,
-                       fmt::format("{} is not allowed in state '{}'", call, toText(mode_)));
+void PlantFmu::demand(const char* words, LifecycleCall call) const {
+  if (allows(mode_, call)) return;
+  throw CallOrderError(toText(mode_), words,
+                       fmt::format("{} is not allowed in state '{}'", words, toText(mode_)));
 }
 
 void PlantFmu::setTimes(double start_s, std::optional<double> stop_s) {
-  demand("setting start and stop time", {LifecycleState::kInstantiated});
+  demand("setting start and stop time", LifecycleCall::kEnterInitializationMode);
   const SimTime start = timeFromSeconds("start time", start_s);
   std::optional<SimTime> stop;
   if (stop_s) {
@@ -110,20 +110,20 @@ void PlantFmu::setTimes(double start_s, std::optional<double> stop_s) {
 }
 
 void PlantFmu::enterInitialization() {
-  demand("entering initialization", {LifecycleState::kInstantiated});
+  demand("entering initialization", LifecycleCall::kEnterInitializationMode);
   now_ = start_;
   stale_ = digest_stale_ = true;
   mode_ = LifecycleState::kInitialization;
 }
 
 void PlantFmu::exitInitialization() {
-  demand("leaving initialization", {LifecycleState::kInitialization});
+  demand("leaving initialization", LifecycleCall::kExitInitializationMode);
   plant();
   mode_ = LifecycleState::kStep;
 }
 
 void PlantFmu::terminate() {
-  demand("terminate", {LifecycleState::kStep});
+  demand("terminate", LifecycleCall::kTerminate);
   mode_ = LifecycleState::kTerminated;
 }
 
@@ -138,7 +138,7 @@ void PlantFmu::reset() {
 }
 
 void PlantFmu::doStep(double communication_point_s, double step_s) {
-  demand("doStep", {LifecycleState::kStep});
+  demand("doStep", LifecycleCall::kDoStep);
   const StepTarget target = stepTarget(now_, communication_point_s, step_s, stop_);
   if (!target.refusal.empty()) throw InputError("doStep: " + target.refusal);
   const FmuVariables::Groups& g = variables_.groups();
@@ -182,7 +182,7 @@ void PlantFmu::setValue(ValueReference reference, double value) {
                     "initialization ends",
                     name, toText(mode_)));
   }
-  if (!before_start) demand("setting inputs", {LifecycleState::kStep});
+  if (!before_start) demand("setting inputs", LifecycleCall::kDoStep);
   if (!std::isfinite(value)) {
     throw InputError(fmt::format("'{}' is set to {}, must be finite", name, value));
   }

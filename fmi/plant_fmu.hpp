@@ -62,7 +62,7 @@ class PlantFmu {
   State stateWithoutPlant() const;
   /// @throw InputError if these bytes are not such a state of this FMU.
   State read(const StateBlob& blob) const;
-  void demand(const char* call, std::initializer_list<LifecycleState> allowed) const;
+  void demand(const char* words, LifecycleCall call) const;
   /// The scenario with the parameters as they are now.
   ConfigNode effectiveScenario(const std::vector<double>& values) const;
   std::unique_ptr<Plant> makePlant(const std::vector<double>& values) const;

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/config_listing.hpp"
+#include "core/config_values.hpp"
 #include "core/error.hpp"
 #include "model/robot_reader.hpp"
 #include "plant/plant_config.hpp"
@@ -29,8 +30,8 @@ const std::set<std::string> kSections = {"",
                                          "environment"};
 
 void describeParts(ConfigVisitor& v) {
-  int seed = static_cast<int>(PlantConfig().seed);
-  v.integer(may("seed", "of every noise source"), seed, {0, kInf});
+  std::uint64_t seed = PlantConfig().seed;
+  describeSeed(v, seed);
   v.section(must("plant", "the plant"), describePlant);
   v.section(must("initial", "the start"), describeInitial);
   v.section(must("environment", "around the robot"), describeEnvironment);

@@ -16,9 +16,13 @@
 
 namespace ballbot {
 
+class ConfigVisitor;
+
 struct BusConfig {
   std::string address;  ///< slcan:/dev/ttyACM0 or socketcan:can0
   CanBusSettings settings;
+
+  void describe(ConfigVisitor& v);
 };
 
 /// Where the PD law of the joints is closed.
@@ -58,6 +62,9 @@ struct DriveConfig {
   // Its response to a torque command, as `ballbot identify` finds it (second order).
   double torque_frequency_Hz = 40, torque_damping_ratio = 0.7071067811865476;
   double torque_delay = 0;  ///< [s]
+
+  /// Keys that `drive_defaults` and every entry of `drives` may have.
+  void describe(ConfigVisitor& v);
 };
 
 struct ImuConfig {
@@ -66,6 +73,8 @@ struct ImuConfig {
   int period_cycles = 1;              ///< from sample to sample, where it is slower than the bus
   double accel_resolution = 4.79e-3;  ///< [m/s^2] per count
   double gyro_resolution = 1.065e-3;  ///< [rad/s] per count
+
+  void describe(ConfigVisitor& v, SimDuration cycle, double last_bus);
 };
 
 struct SafetyConfig {
@@ -94,18 +103,28 @@ struct SafetyConfig {
   int imu_repeats = 6;        ///< samples equal bit for bit; 0: as many as there are
   int read_back_cycles = 10;  ///< from one parameter read to the next; 0: none
   int command_repeats = 8;    ///< commands equal bit for bit; 0: as many as there are
+
+  /// Times in the file become whole cycles, rounded up.
+  void describe(ConfigVisitor& v, SimDuration cycle);
+
+ private:
+  void describeDoubts(ConfigVisitor& v);
 };
 
 struct RealtimeConfig {
   int priority = 80;               ///< SCHED_FIFO
   SimDuration collect{1'200'000};  ///< after SYNC: the drives' answers are awaited so long
   SimDuration act{1'500'000};      ///< after SYNC: the command goes out
+
+  void describe(ConfigVisitor& v, SimDuration cycle);
 };
 
 /// What commissioning is told: hil/commissioning/.
 struct CommissioningConfig {
   std::array<double, 3> arm_pose{};  ///< joint angles at the arm's marks [rad]
   double torque_share = 0.15;        ///< of each drive's torque limit
+
+  void describe(ConfigVisitor& v);
 };
 
 /// The bench as the adapter has it: buses, drives, IMU, limits.
@@ -136,9 +155,18 @@ struct BenchConfig {
   bool flexible() const { return !buses.empty() && buses[0].settings.flexible(); }
   double cycleSeconds() const { return toSeconds(cycle); }
   int cyclesOf(int ms) const;  ///< rounded up
+
+  /// All of a bench file but `emulator`, which is the emulated drives' own.
+  void describe(ConfigVisitor& v);
+  std::size_t longestPdo() const;  ///< in bytes
+
+ private:
+  void describeNetwork(ConfigVisitor& v);
+  void describeBuses(ConfigVisitor& v);
+  void describeDrives(ConfigVisitor& v);
 };
 
-/// Reads everything but the section `emulator`, which is the emulated drives' own.
+/// Reads what BenchConfig describes, and refuses what does not go together.
 /// @throw InputError with file, line and column.
 BenchConfig readBenchConfig(const ConfigNode& tree);
 

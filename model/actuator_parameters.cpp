@@ -44,33 +44,34 @@ void ActuatorParameters::describe(ConfigVisitor& v) {
            torque_bandwidth, positive);
   v.number(must("damping_ratio", "wanted damping of the torque loop, output blocked"),
            damping_ratio, positive);
+  v.check([this](const ConfigReader& in) { requirePossible(in); });
+}
+
+void ActuatorParameters::requirePossible(const ConfigReader& in) const {
+  if (static_friction < coulomb_friction) {
+    throw InputError(fmt::format("{} is {}, must be at least coulomb_friction_Nm = {}",
+                                 in.at("static_friction_Nm"), static_friction, coulomb_friction));
+  }
+  if (torqueGainP() < 0) {
+    const double open_loop = std::sqrt(spring_stiffness / reflectedInertia()) / kTwoPi;
+    throw InputError(fmt::format(
+        "{} is {} Hz, below the {:.3g} Hz that spring and rotor have without feedback; a negative "
+        "gain would be needed. Raise it, or lower spring_stiffness_Nm_per_rad",
+        in.at("torque_bandwidth_Hz"), torque_bandwidth, open_loop));
+  }
+  if (torqueGainD() < 0) {
+    const double least = viscous_friction / (2 * reflectedInertia() * kTwoPi * torque_bandwidth);
+    throw InputError(fmt::format(
+        "{} is {}, but viscous friction alone gives {:.3g} at {} Hz; a negative gain would be "
+        "needed. Raise it, or lower viscous_friction_Nms_per_rad",
+        in.at("damping_ratio"), damping_ratio, least, torque_bandwidth));
+  }
 }
 
 ActuatorParameters ActuatorParameters::read(ConfigReader& in) {
   ActuatorParameters p;
   readDescribed(in, p);
   in.finish();
-
-  if (p.static_friction < p.coulomb_friction) {
-    throw InputError(fmt::format("{} is {}, must be at least coulomb_friction_Nm = {}",
-                                 in.at("static_friction_Nm"), p.static_friction,
-                                 p.coulomb_friction));
-  }
-  if (p.torqueGainP() < 0) {
-    const double open_loop = std::sqrt(p.spring_stiffness / p.reflectedInertia()) / kTwoPi;
-    throw InputError(fmt::format(
-        "{} is {} Hz, below the {:.3g} Hz that spring and rotor have without feedback; a negative "
-        "gain would be needed. Raise it, or lower spring_stiffness_Nm_per_rad",
-        in.at("torque_bandwidth_Hz"), p.torque_bandwidth, open_loop));
-  }
-  if (p.torqueGainD() < 0) {
-    const double least =
-        p.viscous_friction / (2 * p.reflectedInertia() * kTwoPi * p.torque_bandwidth);
-    throw InputError(fmt::format(
-        "{} is {}, but viscous friction alone gives {:.3g} at {} Hz; a negative gain would be "
-        "needed. Raise it, or lower viscous_friction_Nms_per_rad",
-        in.at("damping_ratio"), p.damping_ratio, least, p.torque_bandwidth));
-  }
   return p;
 }
 

@@ -31,9 +31,12 @@ struct ActuatorParameters {
   double torqueGainP() const;
   double torqueGainD() const;
 
+  /// A reader refuses what needs a negative gain.
   void describe(ConfigVisitor& v);
-  /// @throw InputError if the wanted bandwidth needs a negative gain.
   static ActuatorParameters read(ConfigReader& in);
+
+ private:
+  void requirePossible(const ConfigReader& in) const;
 };
 
 }  // namespace ballbot

@@ -68,6 +68,14 @@ std::string firstNonFinite(const ActuatorCommand& command) {
   return {};
 }
 
+std::string firstNonFinite(const AddedSignals& signals) {
+  for (std::size_t i = 0; i < signals.values.size(); ++i) {
+    if (std::isfinite(signals.values[i])) continue;
+    return fmt::format("{} is {}", signals.list[i].name, signals.values[i]);
+  }
+  return {};
+}
+
 std::string firstImpossible(const SensorFrame& f, SimTime now) {
   return named("sensors.", firstImpossibleIn(f, now));
 }

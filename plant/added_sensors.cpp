@@ -1,8 +1,12 @@
 #include "plant/added_sensors.hpp"
 
+#include <cmath>
+#include <stdexcept>
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/foreign_code.hpp"
 
 namespace ballbot {
 
@@ -18,7 +22,7 @@ void AddedSensorList::describe(ConfigVisitor& v) {
       in.section(may(kind.name.c_str(), kind.words.c_str()), [&](ConfigVisitor& section) {
         const std::shared_ptr<AddedSensorSettings> settings = kind.settings();
         settings->describe(section);
-        sensors.push_back(settings);
+        sensors.push_back({kind.name, settings});
       });
     }
   });
@@ -30,10 +34,16 @@ void AddedSensorList::describe(ConfigVisitor& v) {
 
 AddedSignals AddedSensorList::signals() const {
   AddedSignals out;
-  for (const auto& sensor : sensors) {
-    for (AddedSignal& signal : sensor->signals()) out.list.push_back(std::move(signal));
+  for (const Entry& sensor : sensors) {
+    for (AddedSignal& signal : sensor.settings->signals()) out.list.push_back(std::move(signal));
   }
   out.values.assign(out.list.size(), 0.0);
+  return out;
+}
+
+std::string AddedSensorList::names() const {
+  std::string out;
+  for (const Entry& sensor : sensors) out += (out.empty() ? "" : ", ") + sensor.name;
   return out;
 }
 
@@ -49,21 +59,32 @@ AddedSensorList addedSensorsOf(const ConfigNode& scenario) {
 
 AddedSensorBank::AddedSensorBank(const AddedSensorList& list, std::uint64_t seed)
     : signals_(list.signals()) {
-  std::size_t first = 0;
-  for (const auto& settings : list.sensors) {
-    sensors_.push_back(settings->make(seed));
-    first_value_.push_back(first);
-    first += settings->signals().size();
+  first_value_.push_back(0);
+  for (const AddedSensorList::Entry& entry : list.sensors) {
+    names_.push_back("added sensor '" + entry.name + "'");
+    sensors_.push_back(doneBy(names_.back(), [&] {
+      auto made = entry.settings->make(seed);
+      if (!made) throw std::logic_error("its AddedSensorSettings::make() made nothing");
+      return made;
+    }));
+    first_value_.push_back(first_value_.back() + entry.settings->signals().size());
+  }
+}
+
+template <typename Use>
+void AddedSensorBank::forEach(Use&& use) {
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    doneBy(names_[i], [&] { use(*sensors_[i], i); });
   }
 }
 
 void AddedSensorBank::reset(const TruthFrame& truth) {
-  for (const auto& sensor : sensors_) sensor->reset(truth);
+  forEach([&](AddedSensor& sensor, std::size_t) { sensor.reset(truth); });
   read();
 }
 
 void AddedSensorBank::advance(const TruthFrame& truth, SimDuration since) {
-  for (const auto& sensor : sensors_) sensor->advance(truth, since);
+  forEach([&](AddedSensor& sensor, std::size_t) { sensor.advance(truth, since); });
   read();
 }
 
@@ -79,9 +100,14 @@ void AddedSensorBank::setStates(const States& states) {
 }
 
 void AddedSensorBank::read() {
-  for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    sensors_[i]->read(signals_.values.data() + first_value_[i]);
-  }
+  forEach([this](AddedSensor& sensor, std::size_t i) {
+    sensor.read(signals_.values.data() + first_value_[i]);
+    for (std::size_t k = first_value_[i]; k < first_value_[i + 1]; ++k) {
+      if (std::isfinite(signals_.values[k])) continue;
+      throw NumericalError(
+          fmt::format("{}: {} is {}", names_[i], signals_.list[k].name, signals_.values[k]));
+    }
+  });
 }
 
 }  // namespace ballbot

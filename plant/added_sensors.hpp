@@ -59,19 +59,26 @@ Registry<SensorKind>& sensorKinds();
 
 /// The sensors that a plant has beside those of the frame.
 struct AddedSensorList {
-  std::vector<std::shared_ptr<const AddedSensorSettings>> sensors;
+  struct Entry {
+    std::string name;  ///< of its kind
+    std::shared_ptr<const AddedSensorSettings> settings;
+  };
+  std::vector<Entry> sensors;
 
   /// `added_sensors:` of the `plant:` section; not told where no kind was added.
   /// @throw InputError from a reader, also for more values than fit.
   void describe(ConfigVisitor& v);
   /// Of all of them, in order; the values are zero.
   AddedSignals signals() const;
+  /// Their names; empty where there are none.
+  std::string names() const;
 };
 
 /// The same of a scenario, without the rest of its plant. @throw InputError
 AddedSensorList addedSensorsOf(const ConfigNode& scenario);
 
-/// Those of a running plant.
+/// Those of a running plant. A sensor that throws, or whose value is not finite, is named.
+/// @throw InputError (NumericalError of a value)
 class AddedSensorBank {
  public:
   AddedSensorBank(const AddedSensorList& list, std::uint64_t seed);
@@ -92,10 +99,14 @@ class AddedSensorBank {
   void setStates(const States& states);
 
  private:
+  /// @param use  is called with each sensor and its index
+  template <typename Use>
+  void forEach(Use&& use);
   void read();
 
   std::vector<std::unique_ptr<AddedSensor>> sensors_;
-  std::vector<std::size_t> first_value_;
+  std::vector<std::string> names_;        ///< for words
+  std::vector<std::size_t> first_value_;  ///< and, at the end, how many there are
   AddedSignals signals_;
 };
 

@@ -43,7 +43,7 @@ std::string stateForm(const PlantConfig& c) {
   const PlantFidelity& f = c.fidelity;
   return fmt::format(
       "multibody {}, actuators {}, contact {}, drive period {}, delay of {} ticks, IMU period "
-      "{}{}{}{}",
+      "{}{}{}{}{}",
       f.multibody == MultibodyStructure::kFull ? "full" : "reduced_wheels",
       f.actuators == ActuatorLevel::kIdeal ? "ideal" : "series_elastic", nameOf(f.contact),
       toText(c.drive_period), f.transport_delay ? c.transport_delay_ticks : 0,
@@ -51,7 +51,8 @@ std::string stateForm(const PlantConfig& c) {
       c.surroundings.wall ? ", a wall" : "",
       c.wheel_loop.delay_ticks > 0
           ? fmt::format(", a wheel loop delayed by {} ticks", c.wheel_loop.delay_ticks)
-          : "");
+          : "",
+      c.added_sensors.sensors.empty() ? "" : ", added sensors " + c.added_sensors.names());
 }
 
 void requireFinite(const ActuatorCommand& command, SimTime t) {

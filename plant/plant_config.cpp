@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/angle.hpp"
+#include "core/config_values.hpp"
 #include "core/config_visitor.hpp"
 #include "core/error.hpp"
 
@@ -151,7 +152,8 @@ PlantConfig readPlantConfig(const ConfigNode& scenario) {
 PlantConfig readPlantConfig(const ConfigNode& scenario, const RobotParameters& nominal) {
   ConfigReader in(scenario);
   PlantConfig c;
-  c.seed = static_cast<std::uint64_t>(in.numberOr("seed", 1, {0, 9007199254740992.0}));
+  ConfigReading reading(in);
+  describeSeed(reading, c.seed);
   ConfigReader robot = in.child("robot");
   c.robot = nominal;
   c.actuators = readActuators(robot);

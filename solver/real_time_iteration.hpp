@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "solver/slq_solver.hpp"
+#include "solver/stage_check.hpp"
 
 namespace ballbot {
 
@@ -23,6 +24,13 @@ class RealTimeIteration {
     for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
       control_times_.push_back(0.5 * (knots[k] + knots[k + 1]));
     }
+  }
+
+  /// The same, for a problem that has to fit. @throw InputError with both numbers of stages.
+  RealTimeIteration(const std::vector<double>& knots, const Problem& problem,
+                    const SlqOptions& options)
+      : RealTimeIteration(knots, options) {
+    requireFits(solver_, problem);
   }
 
   const std::vector<double>& knots() const noexcept { return knots_; }

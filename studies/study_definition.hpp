@@ -10,6 +10,9 @@
 
 namespace ballbot {
 
+class ConfigReader;
+class ConfigVisitor;
+
 /// A configuration path and the value it gets. The value may hold `{from: AXIS, times: A, power:
 /// P}` anywhere inside, which case generation replaces by A * (value of that axis)^P.
 using Setting = std::pair<std::string, ConfigNode>;
@@ -26,6 +29,8 @@ struct AxisOption {
   std::string label;             ///< as tables and pictures show it: "40", "matched"
   std::optional<double> number;  ///< the label as a number, where it is one
   std::vector<Setting> settings;
+
+  void describe(ConfigVisitor& v);
 };
 
 /// Numbers drawn by a Latin hypercube or searched by bisection.
@@ -45,6 +50,11 @@ struct StudyAxis {
   std::vector<LinkedPath> paths;    ///< empty where options hold their own settings
   std::vector<AxisOption> options;  ///< of a grid
   std::optional<AxisRange> range;   ///< instead of options
+
+  void describe(ConfigVisitor& v);
+
+ private:
+  void requireWhole(const ConfigReader& in) const;
 };
 
 /// Combinations that make no sense: left out are cases whose labels all stand in this.
@@ -57,6 +67,8 @@ struct SearchDefinition {
   std::string axis;
   double rate = 0.5;
   double resolution = 0.05;  ///< stop at this width of the bracket, relative to its upper end
+
+  void describe(ConfigVisitor& v);
 };
 
 /// What the report of a study draws; empty members are chosen from the data.
@@ -65,6 +77,8 @@ struct ReportDefinition {
   std::string curves;                ///< axis with a curve for each of its options
   std::vector<std::string> metrics;  ///< shown beside the share of cases that pass
   double rate = 0.5;                 ///< the boundary is where that share crosses this
+
+  void describe(ConfigVisitor& v);
 };
 
 enum class StudyDesign { kGrid, kLatinHypercube };
@@ -77,10 +91,10 @@ struct Study {
   StudyDesign design = StudyDesign::kGrid;
   std::vector<StudyAxis> axes;
   std::vector<Exclusion> exclusions;
-  int samples = 0;                   ///< of a Latin hypercube
-  std::uint64_t design_seed = 1;     ///< of a Latin hypercube
-  std::vector<std::uint64_t> seeds;  ///< every point runs once with each
-  double timeout_s = 600;            ///< wall-clock time after which a case counts as hung
+  int samples = 0;                      ///< of a Latin hypercube
+  std::uint64_t design_seed = 1;        ///< of a Latin hypercube
+  std::vector<std::uint64_t> seeds{1};  ///< every point runs once with each
+  double timeout_s = 600;               ///< wall-clock time after which a case counts as hung
   std::optional<SearchDefinition> search;
   ReportDefinition report;
   ConfigNode tree = ConfigNode::map({});
@@ -88,6 +102,12 @@ struct Study {
   /// @throw InputError naming the axes there are.
   const StudyAxis& axis(const std::string& axis_name) const;
   std::size_t axisIndex(const std::string& axis_name) const;
+
+  void describe(ConfigVisitor& v);
+
+ private:
+  void describeAxes(ConfigVisitor& v);
+  void describeSampling(ConfigVisitor& v);
 };
 
 /// Reads a study file. docs/studies.md describes it.

@@ -8,14 +8,17 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/scenario_keys.hpp"
+#include "hil/bench_config.hpp"
+#include "hil/emulator/emulator_config.hpp"
 #include "report/json_text.hpp"
+#include "studies/study_definition.hpp"
 #include "tools/commands.hpp"
 
 namespace ballbot {
 namespace {
 
 struct ExplainArguments {
-  std::string key;
+  std::string key, file = "scenario";
   bool json = false, schema = false, reference = false;
 };
 
@@ -70,9 +73,9 @@ void printBelow(const std::string& top, const std::vector<KeyEntry>& keys) {
 }
 
 /// As docs/keys.md has it: a table for each mapping, in the order in which they are told.
-void printReference() {
+void printReference(const std::vector<KeyEntry>& book) {
   std::vector<std::pair<std::string, std::vector<const KeyEntry*>>> tables;
-  for (const KeyEntry& e : scenarioKeys()) {
+  for (const KeyEntry& e : book) {
     if (e.kind == KeyKind::kSection || e.kind == KeyKind::kList) continue;
     const std::size_t dot = e.path.rfind('.');
     const std::string of = dot == std::string::npos ? "" : e.path.substr(0, dot);
@@ -94,16 +97,31 @@ void printReference() {
   }
 }
 
+KeyBook keysOf(const std::string& file) {
+  ConfigListing listing;
+  if (file == "study") {
+    Study().describe(listing);
+    return {"study", listing.take()};
+  }
+  if (file == "bench") {
+    BenchConfig().describe(listing);
+    listing.section(emulatorSection(), [](ConfigVisitor& in) { EmulatorConfig().describe(in); });
+    return {"bench file", listing.take()};
+  }
+  return scenarioKeys();
+}
+
 ExitCode explain(const ExplainArguments& a) {
+  const KeyBook book = keysOf(a.file);
   if (a.schema) {
-    fmt::print("{}", scenarioSchema());
+    fmt::print("{}", book.schema());
     return ExitCode::kPassed;
   }
   if (a.reference) {
-    printReference();
+    printReference(book.keys);
     return ExitCode::kPassed;
   }
-  const std::vector<KeyEntry> keys = a.key.empty() ? scenarioKeys() : keysAt(a.key);
+  const std::vector<KeyEntry> keys = a.key.empty() ? book.keys : book.at(a.key);
   if (a.json) {
     nlohmann::ordered_json out = nlohmann::ordered_json::array();
     for (const KeyEntry& e : keys) out.push_back(toJson(e));
@@ -123,17 +141,22 @@ ExitCode explain(const ExplainArguments& a) {
 
 void addExplainCommand(CLI::App& program, ExitCode& result) {
   CLI::App* command = program.add_subcommand(
-      "explain", "What a key of a scenario means: words, unit, range, default");
+      "explain",
+      "What a key of a scenario, a bench file or a study means: words, unit, range, default");
   const auto a = std::make_shared<ExplainArguments>();
   command->add_option("key", a->key, "Dotted path, e.g. plant.fidelity.friction (default: all)");
+  command->add_option("--file", a->file, "Which kind of file has it")
+      ->check(CLI::IsMember({"scenario", "bench", "study"}))
+      ->capture_default_str();
   command->add_flag("--json", a->json, "Print the key, and all below it, as JSON");
-  command->add_flag("--schema", a->schema, "Print the JSON schema of scenario files");
+  command->add_flag("--schema", a->schema, "Print the JSON schema of such files");
   command->add_flag("--reference", a->reference, "Print all keys as tables, as in docs/keys.md");
   command->footer(
       "Examples:\n"
       "  ballbot explain\n"
       "  ballbot explain plant.fidelity.friction\n"
       "  ballbot explain controller.mpc\n"
+      "  ballbot explain --file bench safety.ramp_ms\n"
       "  ballbot explain --schema > scenario.schema.json\n"
       "Exit codes: 0 explained, 2 there is no such key.");
   command->callback([&result, a] { result = explain(*a); });

@@ -58,6 +58,7 @@ std::string resultTable(const Scenario& scenario, const RunResult& result) {
   if (refused != result.metrics.end() && refused->second > 0) {
     out += fmt::format("  {:<32} {:.0f} of {:.0f}; see docs/troubleshooting/plans-refused.md\n",
                        "plans refused", refused->second, result.metrics.at("plans"));
+    if (!result.plan_trouble.empty()) out += fmt::format("  {:<32} {}\n", "", result.plan_trouble);
   }
   const auto fallback = result.metrics.find(kFallbackPercent);
   if (fallback != result.metrics.end() && fallback->second > 0) {

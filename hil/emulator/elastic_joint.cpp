@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/angle.hpp"
-#include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "plant/series_elastic_actuator.hpp"
 
 namespace ballbot {
@@ -24,22 +24,24 @@ DriveOptions optionsOf() {
 
 }  // namespace
 
-ElasticJointParameters ElasticJointParameters::read(ConfigReader& in) {
+void ElasticJointParameters::describe(ConfigVisitor& v) {
   const Range not_negative{0, kInf};
-  ElasticJointParameters p;
-  if (in.has("actuator")) {
-    ConfigReader actuator = in.child("actuator");
-    p.actuator = ActuatorParameters::read(actuator);
-  }
-  p.load_friction = in.numberOr("load_friction", p.load_friction, {0, 0.9});
-  p.backlash = kRadPerDeg * in.numberOr("backlash_deg", 0, {0, 10});
-  p.command_delay = 1e-3 * in.numberOr("delay_ms", 0, {0, 50});
-  p.load_inertia = in.numberOr("load_inertia_kgm2", p.load_inertia, {1e-4, 1e3});
-  p.load_damping = in.numberOr("load_damping_Nms_per_rad", p.load_damping, not_negative);
-  p.motor_angle_noise = kRadPerDeg * in.numberOr("motor_angle_noise_deg", 0, not_negative);
-  p.joint_angle_noise = kRadPerDeg * in.numberOr("joint_angle_noise_deg", 0, not_negative);
-  p.motor_torque_noise = in.numberOr("motor_torque_noise_Nm", 0, not_negative);
-  return p;
+  v.section(may("actuator", "motor, gear, spring and torque loop, as in a robot's file"),
+            [this](ConfigVisitor& in) { actuator.describe(in); });
+  v.number(may("load_friction", "of the gear, share of the torque that goes through it"),
+           load_friction, {0, 0.9});
+  v.number(may("backlash_deg", "between gear and spring, from flank to flank"), backlash, {0, 10},
+           kRadPerDeg);
+  v.number(may("delay_ms", "of torque commands, rounded up to the drive's tick"), command_delay,
+           {0, 50}, 1e-3);
+  v.number(may("load_inertia_kgm2", "on a free output"), load_inertia, {1e-4, 1e3});
+  v.number(may("load_damping_Nms_per_rad", "likewise"), load_damping, not_negative);
+  v.number(may("motor_angle_noise_deg", "of a sample, rms"), motor_angle_noise, not_negative,
+           kRadPerDeg);
+  v.number(may("joint_angle_noise_deg", "of a sample, rms"), joint_angle_noise, not_negative,
+           kRadPerDeg);
+  v.number(may("motor_torque_noise_Nm", "of the mean over a cycle, rms"), motor_torque_noise,
+           not_negative);
 }
 
 ElasticJoint::ElasticJoint(const ElasticJointParameters& p)

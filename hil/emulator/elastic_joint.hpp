@@ -23,7 +23,7 @@ struct ElasticJointParameters {
   double motor_torque_noise = 0;                        ///< of the mean over a cycle [N m]
 
   /// What its data sheet would promise, see ActuatorParameters for the actuator's keys.
-  static ElasticJointParameters read(ConfigReader& in);
+  void describe(ConfigVisitor& v);
 };
 
 /// Motor, gear, backlash, spring and output, all seen from the joint (docs/theory/actuator.md):

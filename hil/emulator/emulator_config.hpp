@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/config_node.hpp"
+#include "core/config_visitor.hpp"
 #include "core/time.hpp"
 #include "hil/emulator/drive_node.hpp"
 #include "hil/emulator/elastic_rig.hpp"
@@ -64,7 +64,19 @@ struct EmulatorConfig {
   bool rig_blocked = false;
   /// Series elastic actuators on the rig instead of joints with an exactly known response.
   std::optional<ElasticRigOptions> elastic_rig;
+
+  /// The section `emulator`.
+  void describe(ConfigVisitor& v);
+
+ private:
+  void describeBuses(ConfigVisitor& v);
+  void describeDrives(ConfigVisitor& v);
 };
+
+constexpr ConfigKey emulatorSection() {
+  return may("emulator",
+             "what `ballbot drives` emulates; of the adapter's part it reads the clock");
+}
 
 /// Reads `emulator:` of the bench file, and `cycle_us` and `stepped`, which both sides must share.
 /// @throw InputError with file, line and column.

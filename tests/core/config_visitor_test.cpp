@@ -29,7 +29,8 @@ struct Toy {
   Colour colour = Colour::kGreen;
   SimDuration period{2'500'000};
   std::array<double, 2> size{1, 2};
-  std::string name = "toy";
+  std::string name = "toy", file = "toy.stl";
+  std::int64_t number = 12;
   Wheel wheel;
   std::vector<Wheel> spares;
   double squared = 0;
@@ -43,6 +44,11 @@ struct Toy {
     v.duration(may("period_ms", "from one to the next"), period, {1, 100});
     v.numbers(may("size_m", "length and width"), size.data(), size.size(), {0, 10});
     v.text(may("name", "for people"), name);
+    v.fileName(may("file", "its shape"), file);
+    v.whole(may("number", "on its sole"), number, {0, kInf});
+    v.check([&](const ConfigReader& in) {
+      if (size[0] > size[1]) throw InputError(in.at("size_m") + " is longer than it is wide");
+    });
     v.section(may("wheel", "one that turns"), [&](ConfigVisitor& in) { wheel.describe(in); });
     v.list(may("spares", "wheels in the boot"), [&](ConfigVisitor& in) {
       spares.emplace_back();
@@ -74,7 +80,7 @@ std::string errorOf(const std::string& yaml) {
 TEST(ConfigVisitor, ReadsWhatIsThereAndLeavesWhatIsNot) {
   const Toy t = readToy(
       "{mass_kg: 1.5, doors: 4, colour: red, period_ms: 5, size_m: [3, 4], wheel: {angle_deg: 90}, "
-      "spares: [{}, {angle_deg: 2}], root: 3}");
+      "spares: [{}, {angle_deg: 2}], root: 3, number: 9007199254740991}");
   EXPECT_EQ(t.mass, 1.5);
   EXPECT_EQ(t.doors, 4);
   EXPECT_FALSE(t.open);
@@ -82,6 +88,7 @@ TEST(ConfigVisitor, ReadsWhatIsThereAndLeavesWhatIsNot) {
   EXPECT_EQ(t.period, SimDuration{5'000'000});
   EXPECT_EQ(t.size[1], 4);
   EXPECT_EQ(t.name, "toy");
+  EXPECT_EQ(t.number, 9007199254740991);
   EXPECT_DOUBLE_EQ(t.wheel.angle, 3.14159265358979323846 / 2);
   ASSERT_EQ(t.spares.size(), 2U);
   EXPECT_DOUBLE_EQ(t.spares[0].angle, Wheel{}.angle);
@@ -99,6 +106,10 @@ TEST(ConfigVisitor, HasTheReadersErrors) {
   EXPECT_THAT(errorOf("{mass_kg: 1, spares: [{x: 1}]}"),
               HasSubstr("unknown key 'x' in 'spares.0'"));
   EXPECT_THAT(errorOf("{mass_kg: 1, size_m: [1]}"), HasSubstr("must be a list of 2 numbers"));
+  EXPECT_THAT(errorOf("{mass_kg: 1, number: 1.5}"), HasSubstr("must be a whole number"));
+  EXPECT_THAT(errorOf("{mass_kg: 1, file: ../x}"), HasSubstr("must be the name of a file"));
+  EXPECT_THAT(errorOf("{mass_kg: 1, size_m: [2, 1]}"),
+              HasSubstr("toy.yaml:1:22: size_m is longer than it is wide"));
 }
 
 TEST(ConfigListing, HasEveryKeyWithTypeUnitRangeAndDefault) {
@@ -106,7 +117,7 @@ TEST(ConfigListing, HasEveryKeyWithTypeUnitRangeAndDefault) {
   ConfigListing listing("shop.toy");
   toy.describe(listing);
   const std::vector<KeyEntry> keys = listing.take();
-  ASSERT_EQ(keys.size(), 12U);
+  ASSERT_EQ(keys.size(), 14U);
   EXPECT_EQ(keys[0].path, "shop.toy.mass_kg");
   EXPECT_TRUE(keys[0].required);
   EXPECT_EQ(keys[0].unit, "kg");
@@ -118,10 +129,12 @@ TEST(ConfigListing, HasEveryKeyWithTypeUnitRangeAndDefault) {
   EXPECT_EQ(keys[4].fallback, "2.5");
   EXPECT_EQ(keys[4].unit, "ms");
   EXPECT_EQ(keys[5].fallback, "[1, 2]");
-  EXPECT_EQ(keys[8].path, "shop.toy.wheel.angle_deg");
-  EXPECT_EQ(keys[8].fallback, "0.5");
-  EXPECT_EQ(keys[10].path, "shop.toy.spares.0.angle_deg");
-  EXPECT_EQ(typeText(keys[11]), "a number whose square counts");
+  EXPECT_EQ(typeText(keys[7]), "text");
+  EXPECT_EQ(typeText(keys[8]), "whole number, at least 0");
+  EXPECT_EQ(keys[10].path, "shop.toy.wheel.angle_deg");
+  EXPECT_EQ(keys[10].fallback, "0.5");
+  EXPECT_EQ(keys[12].path, "shop.toy.spares.0.angle_deg");
+  EXPECT_EQ(typeText(keys[13]), "a number whose square counts");
 }
 
 TEST(KeyUnit, IsWhatTheNameEndsIn) {

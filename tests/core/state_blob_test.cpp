@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
+#include "core/state_visitors.hpp"
 
 namespace ballbot {
 namespace {
@@ -38,6 +39,23 @@ TEST(StateBlob, ReadsBackWhatWasWritten) {
   EXPECT_EQ(in.get<double>(), 0.1);
   EXPECT_EQ(in.getVector(), (std::vector<double>{1, 2, 3}));
   EXPECT_NO_THROW(in.finish());
+}
+
+struct Counter {
+  std::int64_t count = 0;
+
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.count);
+  }
+};
+
+// GCC 12 once warned of this one, where all is inlined into one function.
+TEST(StateBlob, HoldsAStateOfOneInteger) {
+  const StateBlob blob = saveStateOf(Counter{-7}, "counter", 1);
+  Counter read;
+  restoreStateOf(read, blob, "counter", 1);
+  EXPECT_EQ(read.count, -7);
 }
 
 TEST(StateBlob, EveryDamagedByteIsRefused) {

@@ -52,7 +52,7 @@ class Leftovers : public ::testing::Test {
   }
   static void step(FmuProcess& fmu) {
     fmu.initialize(kSimStart);
-    fmu.step(kSimStart, SimDuration{1'000'000}, {});
+    fmu.doStep(kSimStart, SimDuration{1'000'000}, {});
   }
   std::string folder_ = smallFmuFolder() + "/temporary", before_;
 };
@@ -148,7 +148,7 @@ TEST(FmuProcess, SaysWhichFunctionIsMissingAndWhatNoNumberCarries) {
   use.saves_state = true;  // which it cannot
   FmuProcess fmu(use, kProgram);
   fmu.initialize(kSimStart);
-  EXPECT_THAT(messageOf([&] { fmu.save(); }), HasSubstr("has no function fmi3GetFMUState"));
+  EXPECT_THAT(messageOf([&] { fmu.saveState(); }), HasSubstr("has no function fmi3GetFMUState"));
   use.outputs = {"huge"};
   FmuProcess huge(use, kProgram);
   EXPECT_THAT(messageOf([&] { huge.initialize(kSimStart); }),

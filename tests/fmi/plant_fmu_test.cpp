@@ -34,7 +34,7 @@ class PlantFmuTest : public ::testing::TestWithParam<int> {
   void run(FmuSlave& slave, int first, int last) {
     for (int k = first; k <= last; ++k) {
       command(slave, k);
-      slave.step(kSimStart + (k - 1) * kStep, kStep);
+      slave.doStep(kSimStart + (k - 1) * kStep, kStep);
     }
   }
   /// All outputs, the true state and the digest.
@@ -128,23 +128,23 @@ TEST_P(PlantFmuTest, RestoredStatesContinueToTheBit) {
   const auto whole = load();
   whole->initialize(kSimStart);
   run(*whole, 1, 10);
-  const StateBlob middle = whole->save();
+  const StateBlob middle = whole->saveState();
   run(*whole, 11, 20);
   const std::vector<double> expected = observed(*whole);
   whole->terminate();
-  whole->restore(middle);  // from terminated
+  whole->restoreState(middle);  // from terminated
   run(*whole, 11, 20);
   EXPECT_EQ(observed(*whole), expected);
-  whole->restore(middle);
-  EXPECT_THAT(messageOf([&] { whole->step(kSimStart, kStep); }),
+  whole->restoreState(middle);
+  EXPECT_THAT(messageOf([&] { whole->doStep(kSimStart, kStep); }),
               HasSubstr("but the plant stands at"));
-  whole->restore(middle);  // after an error
+  whole->restoreState(middle);  // after an error
   run(*whole, 11, 20);
   EXPECT_EQ(observed(*whole), expected);
 
   const auto fresh = load();  // right after instantiation
-  fresh->restore(middle);
-  EXPECT_EQ(fresh->save(), middle);
+  fresh->restoreState(middle);
+  EXPECT_EQ(fresh->saveState(), middle);
   run(*fresh, 11, 20);
   EXPECT_EQ(observed(*fresh), expected);
 }
@@ -171,7 +171,7 @@ TEST_P(PlantFmuTest, ParametersActAndAreSavedWithTheState) {
   changed->get(port("sensors.motor_angle"), angle);
   EXPECT_EQ(Eigen::Map<JointVector>(angle), native.sensors().motor_angle);
 
-  plain->restore(changed->save());
+  plain->restoreState(changed->saveState());
   EXPECT_EQ(observed(*plain), observed(*changed));
   run(*plain, 21, 25);
   run(*changed, 21, 25);

@@ -16,7 +16,7 @@ std::unique_ptr<FmuSlave> initialized(int version) {
   const UnpackedFmu& fmu = unpackedFmu(version);
   auto slave = loadFmu(fmu.description, fmu.folder, "one", {});
   slave->initialize(kSimStart);
-  slave->step(kSimStart, SimDuration{10'000'000});
+  slave->doStep(kSimStart, SimDuration{10'000'000});
   return slave;
 }
 
@@ -24,11 +24,11 @@ class StateTest : public ::testing::TestWithParam<int> {};
 
 TEST_P(StateTest, GarbageIsRefusedAndNothingChanges) {
   const auto slave = initialized(GetParam());
-  const StateBlob good = slave->save();
+  const StateBlob good = slave->saveState();
   const auto refused = [&](const StateBlob& bad) {
-    const std::string words = messageOf([&] { slave->restore(bad); });
-    slave->restore(good);  // the way out of the error
-    EXPECT_EQ(slave->save(), good);
+    const std::string words = messageOf([&] { slave->restoreState(bad); });
+    slave->restoreState(good);  // the way out of the error
+    EXPECT_EQ(slave->saveState(), good);
     return words;
   };
   EXPECT_THAT(refused(StateBlob(good.size(), 0xA5)),
@@ -43,12 +43,12 @@ TEST_P(StateTest, GarbageIsRefusedAndNothingChanges) {
     flipped[at] ^= 0x10;
     EXPECT_THAT(refused(flipped), HasSubstr("damaged"));
   }
-  EXPECT_THAT(refused(initialized(GetParam() == 2 ? 3 : 2)->save()),
+  EXPECT_THAT(refused(initialized(GetParam() == 2 ? 3 : 2)->saveState()),
               HasSubstr("another scenario, robot or FMI version"));
 }
 
 TEST_P(StateTest, HoldsNoPointersAndNoPadding) {
-  EXPECT_EQ(initialized(GetParam())->save(), initialized(GetParam())->save());
+  EXPECT_EQ(initialized(GetParam())->saveState(), initialized(GetParam())->saveState());
 }
 
 INSTANTIATE_TEST_SUITE_P(Fmi, StateTest, ::testing::Values(2, 3),
@@ -97,8 +97,8 @@ TEST(State, SixteenInstancesInThreadsAgree) {
       threads.emplace_back([&end, version] {
         const auto slave = initialized(version);
         for (int k = 1; k < 10; ++k)
-          slave->step(kSimStart + k * SimDuration{10'000'000}, SimDuration{10'000'000});
-        end = slave->save();
+          slave->doStep(kSimStart + k * SimDuration{10'000'000}, SimDuration{10'000'000});
+        end = slave->saveState();
       });
     }
     for (std::thread& t : threads) t.join();

@@ -163,6 +163,12 @@ TEST(ElasticRig, IsConfiguredInTheEmulatorsSection) {
   EXPECT_EQ(plain.elastic_rig->joint.motor_torque_noise, 0);
   EXPECT_THROW(read("{elastic: {backlash: 1}}"), InputError);
   EXPECT_THROW(read("{elastic: {}, damping_ratio: 1}"), InputError) << "of the other rig";
+  const auto fault = [&](const std::string& rest) {
+    return read("{}, faults: [{at_cycle: 5, kind: " + rest + "}]").faults.at(0);
+  };
+  EXPECT_EQ(fault("tilt, value: 0.5").value, 0.5);
+  EXPECT_EQ(fault("reboot, drive: 3").drive, 2);
+  EXPECT_THROW(fault("tilt"), InputError) << "of no size";
 }
 
 }  // namespace

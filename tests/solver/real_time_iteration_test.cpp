@@ -1,7 +1,8 @@
 #include "solver/real_time_iteration.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include "core/error.hpp"
 #include "solver/riccati_equation_impl.hpp"
 #include "solver/sampled_policy.hpp"
 #include "solver/slq_solver_impl.hpp"
@@ -35,6 +36,18 @@ TEST(SampledPolicy, IsLinearBetweenItsSamplesAndConstantOutside) {
   EXPECT_DOUBLE_EQ(K[3], 4.0 / 3);
   // 16 + 2 (9 - 5) + 4 (9 - 8)
   EXPECT_DOUBLE_EQ(policy.input(3, Eigen::Vector4d(9, 6, 7, 9))[0], 28);
+}
+
+TEST(RealTimeIteration, RefusesAProblemOfAnotherLengthWithBothNumbers) {
+  const CartPole model;
+  const Problem problem(model, 3, 0.1);
+  EXPECT_NO_THROW(Iteration({0, 0.1, 0.2, 0.3}, problem, SlqOptions{}));
+  try {
+    Iteration({0, 0.1, 0.2}, problem, SlqOptions{});
+    FAIL() << "nothing was thrown";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), ::testing::HasSubstr("made for 2 stages, its problem has 3"));
+  }
 }
 
 /// A cart-pole that is let go far from upright and planned anew all the time.

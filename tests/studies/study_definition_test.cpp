@@ -52,11 +52,13 @@ TEST(StudyDefinition, AListOfCasesIsAnAxis) {
 TEST(StudyDefinition, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(refusal("axis: []\n"), HasSubstr(":3:"));
   EXPECT_THAT(refusal("axis: []\n"), HasSubstr("did you mean 'axes'?"));
-  EXPECT_THAT(refusal("axes: [{name: a, values: [1]}]\n"),
-              HasSubstr("has no 'paths': which configuration values does it change?"));
+  EXPECT_THAT(
+      refusal("axes: [{name: a, values: [1]}]\n"),
+      HasSubstr("name: axis 'a' has no 'paths': which configuration values does it change?"));
   EXPECT_THAT(refusal("axes: [{name: a, paths: x}]\n"),
               HasSubstr("must have either 'values' (or 'range') for its 'paths', or 'options'"));
-  EXPECT_THAT(refusal("axes: [{name: a, paths: x, values: [1, 1]}]\n"), HasSubstr("has '1' twice"));
+  EXPECT_THAT(refusal("axes: [{name: a, paths: x, values: [1, 1]}]\n"),
+              HasSubstr("name: axis 'a' has '1' twice"));
   EXPECT_THAT(
       refusal("axes: [{name: a, paths: x, values: [1]}, {name: a, paths: y, values: [1]}]\n"),
       HasSubstr("two axes are called 'a'"));
@@ -70,6 +72,12 @@ TEST(StudyDefinition, SaysWhatIsWrongAndWhere) {
               HasSubstr("axis 'a' has no '2'"));
   EXPECT_THAT(refusal("axes: [{name: seed, paths: x, values: [1]}]\n"),
               HasSubstr("an axis is called 'seed', as a column that every table has"));
+  EXPECT_THAT(refusal("axes: [{name: a, paths: x, values: [1]}]\nsearch: {axis: a}\n"),
+              HasSubstr(": axis 'a' has no 'range' to search in"));
+  EXPECT_THAT(refusal("axes: [{name: a, paths: x, values: [1], whole: true}]\n"),
+              HasSubstr("whole belongs to a 'range'"));
+  EXPECT_THAT(refusal("samples: 3\n"), HasSubstr("samples belongs to design: latin_hypercube"));
+  EXPECT_THAT(refusal("design: latin_hypercube\n"), HasSubstr("samples is missing"));
   EXPECT_THAT(refusal("report: {along: b}\n"), HasSubstr("there is no axis 'b'"));
   EXPECT_THAT(refusal("axes: [{name: a, paths: [{path: x, times: 2}], values: [word]}]\n"),
               HasSubstr("'word' is not a number, so 'x' cannot be computed from it"));

@@ -57,32 +57,57 @@ void paths(const Json& node, const std::string& path, std::set<std::string>& out
   }
 }
 
-TEST(Explain, TheSchemaFileIsWhatTheProgramSays) {
-  const Finished f = runBallbot({"explain", "--schema"});
+/// What the file in configs/ should be.
+Json schemaOf(const std::string& kind) {
+  const Finished f = runBallbot({"explain", "--file", kind, "--schema"});
   EXPECT_EQ(f.exit_code, 0) << f.err;
-  const Json schema = Json::parse(f.out);
+  const std::string name = "configs/" + kind + ".schema.json";
+  std::stringstream file;
+  file << std::ifstream(std::string(BALLBOT_SOURCE_DIR) + "/" + name).rdbuf();
+  EXPECT_EQ(file.str(), f.out) << "write it anew: ballbot explain --file " << kind << " --schema > "
+                               << name;
+  return Json::parse(f.out);
+}
+
+TEST(Explain, TheSchemaFileIsWhatTheProgramSays) {
+  const Json schema = schemaOf("scenario");
   const Json& contact =
       schema["properties"]["plant"]["properties"]["fidelity"]["properties"]["contact"];
   EXPECT_EQ(contact["enum"][0], "rolling");
   EXPECT_EQ(schema["properties"]["plant"]["additionalProperties"], false);
-  std::stringstream file;
-  file << std::ifstream(std::string(BALLBOT_SOURCE_DIR) + "/configs/scenario.schema.json").rdbuf();
-  EXPECT_EQ(file.str(), f.out) << "write it anew: ballbot explain --schema > "
-                                  "configs/scenario.schema.json";
   std::set<std::string> all;
   paths(schema, "", all);
   EXPECT_GT(all.size(), 500U);
 }
 
-TEST(Explain, HasEachKeyOnceAsJson) {
-  const Finished f = runBallbot({"explain", "--json"});
+TEST(Explain, BenchFilesAndStudiesHaveTheirsToo) {
+  const Json bench = schemaOf("bench")["properties"];
+  EXPECT_EQ(bench["drives"]["items"]["properties"]["torque_limit_Nm"]["exclusiveMinimum"], 0);
+  EXPECT_TRUE(bench["emulator"]["properties"]["rig"]["properties"].contains("elastic"));
+  const Json study = schemaOf("study")["properties"];
+  EXPECT_EQ(study["design"]["enum"][1], "latin_hypercube");
+  const Finished ramp = runBallbot({"explain", "--file", "bench", "safety.ramp_ms"});
+  EXPECT_THAT(ramp.out, HasSubstr("default 100"));
+  const Finished none = runBallbot({"explain", "--file", "study", "search.rat"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("no study has a key 'search.rat'; did you mean 'search.rate'?"));
+}
+
+std::set<std::string> keysOf(const std::string& kind, std::size_t fewest_letters) {
+  const Finished f = runBallbot({"explain", "--file", kind, "--json"});
   EXPECT_EQ(f.exit_code, 0) << f.err;
   std::set<std::string> keys;
   for (const Json& entry : Json::parse(f.out)) {
     EXPECT_TRUE(keys.insert(entry["key"].get<std::string>()).second) << entry["key"];
-    EXPECT_GE(entry["words"].get<std::string>().size(), 8U) << entry["key"];
+    EXPECT_GE(entry["words"].get<std::string>().size(), fewest_letters) << entry["key"];
   }
-  EXPECT_GT(keys.size(), 200U);
+  return keys;
+}
+
+TEST(Explain, HasEachKeyOnceAsJson) {
+  EXPECT_GT(keysOf("scenario", 8).size(), 200U);
+  EXPECT_GT(keysOf("bench", 4).size(), 120U);
+  EXPECT_GT(keysOf("study", 4).size(), 25U);
 }
 
 }  // namespace
