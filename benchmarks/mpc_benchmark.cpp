@@ -56,12 +56,14 @@ MpcConfig everythingOn(const RobotParameters& robot, double length, int stages, 
 
 /// A real-time iteration as a run does it: the last plan read at new knots, rolled out from a new
 /// state while dynamics and cost are approximated, Riccati sweep, line search, new plan.
+/// @param held  by the floor against a spin of the ball; kUnlimited without end [N m]
 void mpcIteration(benchmark::State& state, MpcConfig::Engine kind, double length, int stages,
-                  int threads) {
+                  int threads, double held) {
   const RobotParameters robot = benchmarkRobot();
   MpcConfig config = everythingOn(robot, length, stages, threads);
   config.engine = kind;
   const std::unique_ptr<MpcEngine> engine = makeEngine(robot, config);
+  engine->setFloorHeld(held);
   const ReducedDynamics dynamics(robot);
   const Equilibrium rest = findEquilibrium(dynamics, robot.nominal_arm);
   MpcState x0;
@@ -99,9 +101,9 @@ void mpcIteration(benchmark::State& state, MpcConfig::Engine kind, double length
 }
 
 void registerIteration(std::string name, MpcConfig::Engine kind, double length, int stages,
-                       int threads) {
+                       int threads, double held = kUnlimited) {
   if (threads == 2) name += "/threads:2";
-  benchmark::RegisterBenchmark(name.c_str(), mpcIteration, kind, length, stages, threads)
+  benchmark::RegisterBenchmark(name.c_str(), mpcIteration, kind, length, stages, threads, held)
       ->Unit(benchmark::kMillisecond)
       ->UseRealTime();
 }
@@ -113,6 +115,8 @@ bool registerIterations() {
     registerIteration("mpc_iteration/T1_N100", kind, 1, 100, threads);
     registerIteration("mpc_iteration/T2_N200", kind, 2, 200, threads);
   }
+  registerIteration("mpc_iteration_floor_limited/T1_N50", MpcConfig::Engine::kDiscrete, 1, 50, 1,
+                    0.4);
   registerIteration("mpc_iteration_continuous/T1_N50", MpcConfig::Engine::kContinuous, 1, 50, 1);
   return true;
 }
