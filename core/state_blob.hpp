@@ -29,7 +29,8 @@ class BlobWriter {
   StateBlob seal(const std::string& kind, std::uint32_t version) const;
 
  private:
-  // Not inline: GCC 12 takes a vector that grows by one integer for one that is written past its end.
+  // Not inline: GCC 12 takes a vector that grows by one integer for one that is written past its
+  // end.
   void putBytes(const void* bytes, std::size_t count);
 
   std::vector<std::uint8_t> body_;

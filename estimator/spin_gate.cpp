@@ -9,9 +9,9 @@ namespace ballbot {
 namespace {
 
 constexpr double kMeanGain = 1.0 / 20;
-constexpr double kAnySpin = 20;     // [rad/s]
-constexpr double kLargestOff = 5;   // an increment tells no more than that [standard deviations]
-constexpr double kBeyondCreep = 3;  // [standard deviations]
+constexpr double kAnySpin = 20;       // [rad/s]
+constexpr double kLargestOff = 5;     // an increment tells no more than that [standard deviations]
+constexpr double kBeyondCreep = 3;    // [standard deviations]
 constexpr double kLeastOnset = 0.03;  // [rad/s]
 /// The mean of a spin that turns round passes zero; the spin itself is far from it then.
 constexpr double kMomentary = 5;
@@ -24,8 +24,7 @@ void SpinSettings::describe(ConfigVisitor& v) {
   v.number(may("creep_rad_per_s",
                "spin of a ball that the floor holds and no wheel turns, one standard deviation"),
            creep, {1e-5, 1});
-  v.number(may("creep_rad_per_s_per_Nm",
-               "what the wheels' torque about the vertical adds to it"),
+  v.number(may("creep_rad_per_s_per_Nm", "what the wheels' torque about the vertical adds to it"),
            creep_per_torque, {0, 10});
   v.number(may("creep_time_s", "how long it creeps alike"), creep_time_s, {1e-3, 100});
   v.number(may("acceleration_rad_per_s2", "of a ball that spins, by wheels and floor"),
