@@ -33,6 +33,22 @@ void describeFloor(ConfigVisitor& v, FloorBelief& floor) {
             [&](ConfigVisitor& in) { floor.describe(in); });
 }
 
+/// What is learned has to have room to be learned in.
+void requireRange(const ConfigReader& controller, const FloorBelief& floor) {
+  if (!floor.limited || !floor.learned) return;
+  const std::string section = controller.at("floor");
+  if (floor.largest < floor.least) {
+    throw InputError(fmt::format("{}: largest_Nm is {:g}, must be at least least_Nm ({:g})",
+                                 section, floor.largest, floor.least));
+  }
+  if (floor.spin_torque < floor.least || floor.spin_torque > floor.largest) {
+    throw InputError(fmt::format(
+        "{}: spin_torque_Nm is {:g}, must be between least_Nm ({:g}) and largest_Nm ({:g}), within "
+        "which it is learned; or set learned: false",
+        section, floor.spin_torque, floor.least, floor.largest));
+  }
+}
+
 /// Every section of every law, each once.
 template <typename Use>
 void forEachSection(Use&& use) {
@@ -75,6 +91,7 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
   ConfigReader tracker = in.child("tracker");
   out.tracker = TrackerConfig::read(tracker, robot);
   describeFloor(reading, out.floor);
+  requireRange(in, out.floor);
   tracker.finish();
   forEachSection([&](const LawSection& section) { in.raw(section.key.name); });
   in.finish();

@@ -88,7 +88,7 @@ class TaskSchedule {
   // for orientations: yaw, pitch, roll of E in W [rad].
 #define BALLBOT_LED(name, N, unit, term, least, words) \
   TimedWeight<N> name##_weight;                        \
-  TimeSignal<N> name;
+  TimeSignal<N> name;  // NOLINT(bugprone-macro-parentheses): a member's name
 #define BALLBOT_HELD(name, N, unit, term, least, words) TimedWeight<N> name##_weight;
   BALLBOT_TASKS(BALLBOT_LED, BALLBOT_HELD)
 #undef BALLBOT_LED

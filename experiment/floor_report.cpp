@@ -29,7 +29,7 @@ std::optional<PlotGroup> floorGroup(const std::vector<LogTable>& tables) {
   }
   if (estimate) {
     spin.line("estimate", "ball_spin_rate", "estimated", SeriesStyle::kEstimated, 0);
-    torque.line("estimate", "floor_spin_torque_held", "what it is counted on to hold",
+    torque.line("estimate", "floor_spin_torque_held", "what the controller believes it holds",
                 SeriesStyle::kEstimated, 1);
   }
   return PlotGroup{

@@ -9,7 +9,9 @@ void SpinMetrics::add(SimTime now, double spin_rate, double torque, double held)
   if (now < from_) return;
   any_ = true;
   spin_rate_ = std::max(spin_rate_, std::abs(spin_rate));
-  if (held > 0) use_ = std::max(use_, std::abs(torque) / held);
+  // A floor that holds nothing is used up by any spin.
+  const double use = held > 0 ? std::abs(torque) / held : spin_rate == 0 ? 0.0 : 1.0;
+  use_ = std::max(use_, use);
 }
 
 std::map<std::string, double> SpinMetrics::values() const {

@@ -15,7 +15,10 @@ constexpr int kMaxDelayTicks = 1000;
 void describePlantSection(ConfigVisitor& v, PlantConfig& c, FaultKeys fault_keys) {
   v.section(may("fidelity", "how true to the robot the plant is; each switch can be changed alone"),
             [&](ConfigVisitor& in) { c.fidelity.describe(in); });
-  v.section(may("spin_friction", "of the floor on the ball's spin about the vertical"),
+  v.section(may("spin_friction",
+                "of the floor on the ball's spin about the vertical; without effect where "
+                "fidelity.contact is "
+                "rolling"),
             [&](ConfigVisitor& in) { c.spin_friction.describe(in); });
   v.section(may("compliant_contact", "floor and integration of a contact that is compliant"),
             [&](ConfigVisitor& in) {

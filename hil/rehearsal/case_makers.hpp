@@ -33,9 +33,11 @@ inline Start inside(EmulatedFault kind, int drive = 1, double value = 0) {
 }
 
 /// A change of a drive's TPDO, or of the IMU's, on its way to the master.
+// NOLINTNEXTLINE(performance-unnecessary-value-param): the closure keeps it
 inline Start onTpdo(int drive, int number, FrameChange change) {
   return [=](Rehearsal& r) { changeToMaster(r, busOfDrive(drive), tpdoOf(drive, number), change); };
 }
+// NOLINTNEXTLINE(performance-unnecessary-value-param): likewise
 inline Start onImu(int number, FrameChange change) {
   return [=](Rehearsal& r) { changeToMaster(r, 0, imuPdo(number), change); };
 }

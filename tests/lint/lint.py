@@ -73,7 +73,8 @@ def look(name, path, commands):
     if found is None:
         return ""
     options, directory = found
-    command = ["clang-tidy", "--quiet", f"--config-file={ROOT / '.clang-tidy'}", str(path), "--", *options]
+    command = ["clang-tidy", "--quiet", f"--config-file={ROOT / '.clang-tidy'}", str(path), "--", *options,
+               "-include", str(Path(__file__).resolve().parent / "gcc_builtins.hpp")]
     done = subprocess.run(command, cwd=directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     said = done.stdout.replace(str(ROOT) + "/", "")
     return said if "warning:" in said or "error:" in said else ""

@@ -21,5 +21,11 @@ TEST(SpinMetrics, AreTheLargestOfAfterTheRelease) {
                                    Pair("spin_torque_use", DoubleEq(0.75))));
 }
 
+TEST(SpinMetrics, AnySpinUsesUpAFloorThatHoldsNothing) {
+  SpinMetrics metrics(kSimStart);
+  metrics.add(kSimStart, 0.1, 0, 0);
+  EXPECT_EQ(metrics.values().at("spin_torque_use"), 1);
+}
+
 }  // namespace
 }  // namespace ballbot
