@@ -6,7 +6,7 @@
 namespace ballbot {
 namespace {
 
-constexpr SimDuration kWindow{50'000'000};
+constexpr SimDuration kWindow{50'000'000}, kLongestGap{20'000'000};
 /// A ball that is faster all the window spins, one that is slower all the window is held; between
 /// the two nothing is learned [rad/s].
 constexpr double kSpins = 0.15, kHeld = 0.06;
@@ -30,6 +30,14 @@ void FloorHold::update(SimTime now, const StateVector& x, double spin_rate,
                        const JointVector& joint_torque,
                        const JointVector& joint_velocity) noexcept {
   if (!settings_.limited || !settings_.learned) return;
+  // What was not seen, or cannot be, is no part of a balance.
+  const bool seen = joint_torque.head<kWheelCount>().allFinite() &&
+                    joint_velocity.head<kWheelCount>().allFinite() && x.allFinite() &&
+                    std::isfinite(spin_rate);
+  if (!seen || (window_.open && (now < window_.last || now - window_.last > kLongestGap))) {
+    window_ = {};
+    if (!seen) return;
+  }
   const Vector3 per_wheel = spin_torque_.at(x).c;
   const Vector3 wheel_spin =
       joint_velocity.head<kWheelCount>() + axles_ * x.segment<3>(kPositionDim + kOmegaX);

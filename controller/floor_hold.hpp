@@ -19,12 +19,11 @@ class FloorHold {
  public:
   FloorHold(const RobotParameters& robot, const FloorBelief& settings);
 
-  /// One frame of the estimator, in order. @param spin_rate  of the ball, as estimated [rad/s]
+  /// One frame of the estimator. One that is not finite, and a gap, end a window that tells
+  /// nothing. @param spin_rate  of the ball, as estimated [rad/s]
   /// @param joint_torque  of the springs [N m], @param joint_velocity  [rad/s]
   void update(SimTime now, const StateVector& x, double spin_rate, const JointVector& joint_torque,
               const JointVector& joint_velocity) noexcept;
-  /// What is under way is forgotten, what is learned stays.
-  void interrupt() noexcept { window_ = {}; }
 
   /// What the floor is counted on to hold; kUnlimited without end [N m].
   double held() const noexcept { return held_; }

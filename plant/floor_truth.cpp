@@ -18,7 +18,6 @@ FloorTruth::FloorTruth(const PlantConfig& config) {
 }
 
 void FloorTruth::observe(const BallOnFloor& ball) noexcept {
-  if (signals_.empty()) return;
   signals_.values[kSpinRate] = ball.spin_rate;
   signals_.values[kTorque] = ball.torque;
   signals_.values[kHeld] = ball.held;

@@ -11,6 +11,7 @@ class FloorTruth {
   /// Nothing where the ball cannot spin.
   explicit FloorTruth(const PlantConfig& config);
 
+  /// Only where there are signals.
   void observe(const BallOnFloor& ball) noexcept;
   const AddedSignals& signals() const { return signals_; }
 

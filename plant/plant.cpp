@@ -350,7 +350,7 @@ class Plant::Impl {
     f.door_angle = door.angle;
     f.door_rate = door.rate;
     f.external_force_W = environment_.totalForce(state_.now) + external_.sum();
-    floor_truth_.observe(dynamics_.ballOnFloor());
+    if (!floor_truth_.signals().empty()) floor_truth_.observe(dynamics_.ballOnFloor());
   }
 
   PlantConfig config_;

@@ -117,6 +117,26 @@ TEST(FloorHold, NeverLeavesItsRange) {
   EXPECT_EQ(glued.held(), settings.largest);
 }
 
+TEST(FloorHold, LearnsNothingFromWhatIsNotFiniteOrWasNotSeen) {
+  FloorBelief settings;
+  FloorHold hold(exampleRobot(), settings);
+  const StateVector x = StateVector::Zero();
+  JointVector torque = JointVector::Constant(0.2), bad = torque;
+  bad[1] = std::nan("");
+  const JointVector still = JointVector::Zero();
+  SimTime now = kSimStart;
+  for (int i = 0; i < 100; ++i) {
+    now += SimDuration(2'500'000);
+    hold.update(now, x, i % 40 < 20 ? 0.0 : 2.0, i % 10 == 5 ? bad : torque, still);
+  }
+  EXPECT_EQ(hold.held(), settings.spin_torque);
+  for (int i = 0; i < 20; ++i) {  // of a second each nobody knows what was between
+    now += SimDuration(1'000'000'000);
+    hold.update(now, x, 2.0, torque, still);
+  }
+  EXPECT_EQ(hold.held(), settings.spin_torque);
+}
+
 TEST(FloorHold, GoesOnFromASavedState) {
   Twisted robot{FloorBelief()}, other{FloorBelief()};
   robot.run(0.33, 0.5, 0.3);
