@@ -35,6 +35,7 @@ BasicTwoStateFilter<kDim>::BasicTwoStateFilter(const RobotParameters& robot,
                                                const TwoStateSettings& settings)
     : settings_(settings),
       gravity_(robot.gravity),
+      wheels_(robot),
       arm_(settings.arm_rate_time_constant_s),
       filter_(robot, settings.noise, settings.gate, settings.initial.accel_bias,
               settings.iterations, settings.spin),
@@ -42,9 +43,6 @@ BasicTwoStateFilter<kDim>::BasicTwoStateFilter(const RobotParameters& robot,
       gyro_gate_(settings.gate.gyro_jump_rad_per_s),
       poses_(settings.pose, settings.initial.yaw),
       balance_(robot, settings.balance) {
-  for (int i = 0; i < kWheelCount; ++i) {
-    scaled_axles_.row(i) = -robot.ball.radius / robot.wheels.radius * robot.wheelAxle(i);
-  }
   // The filter is linear in yaw and would wander off in one that may be anywhere; turning about the
   // vertical changes nothing it measures, so it does not need to know.
   settings_.initial.yaw = std::min(settings_.initial.yaw, kLargestYawSigma);
@@ -218,7 +216,7 @@ void BasicTwoStateFilter<kDim>::followSpinLoad(double h, const JointVector& join
   const Vector3 wheels = joint_torque.head<kWheelCount>();
   if (!wheels.allFinite()) return;
   const Vector3 up_B = filter_.state().R_WB.row(2);
-  const double load = up_B.dot(scaled_axles_.transpose() * wheels);
+  const double load = up_B.dot(wheels_.ballTorque(wheels));
   spin_load_ += std::min(1.0, h / kSpinLoadTime_s) * (load - spin_load_);
 }
 

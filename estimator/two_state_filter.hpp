@@ -8,6 +8,7 @@
 #include "estimator/joint_history.hpp"
 #include "estimator/pose_aiding.hpp"
 #include "estimator/two_state_settings.hpp"
+#include "model/omniwheel_kinematics.hpp"
 
 namespace ballbot {
 
@@ -82,8 +83,8 @@ class BasicTwoStateFilter final : public Estimator {
   static constexpr bool kSpins = kDim > kTanSpin;
 
   TwoStateSettings settings_;
-  double gravity_;        ///< [m/s^2]
-  Matrix3 scaled_axles_;  ///< -(r/r_w) D: torque on the ball, in B, is its transpose times theirs
+  double gravity_;  ///< [m/s^2]
+  OmniwheelKinematics wheels_;
   FrameOrder order_;
   ArmSensing arm_;
   JointHistory joints_;
