@@ -32,8 +32,7 @@ void BackgroundMpcLaw::solveForever() {
     if (!requests_.update()) continue;  // several requests at once: the newest has been taken
     const Request& r = requests_.front();
     Result& result = results_.back();
-    planner_.setContactForce(r.contact_force_W);
-    planner_.setFloorHeld(r.floor_held);
+    planner_.setCircumstances(r.circumstances);
     result.report = planner_.plan(r.now, r.x, r.xf, r.joint_angle, r.stand_in, previous, next);
     if (result.report.accepted) std::swap(previous, next);
     result.policy = previous;
@@ -52,8 +51,7 @@ PlanReport BackgroundMpcLaw::plan(SimTime now, const StateVector& x,
   request.x = x;
   request.xf = execution_.filterState();
   request.joint_angle = joint_angle;
-  request.contact_force_W = contact_force_W_;
-  request.floor_held = floor_held_;
+  request.circumstances = circumstances_;
   requests_.publish();
   sem_post(&wake_);
   PlanReport report = results_.front().report;

@@ -22,8 +22,7 @@ class BackgroundMpcLaw final : public ControlLaw {
 
   PlanReport plan(SimTime now, const StateVector& x,
                   const JointVector& joint_angle) noexcept override;
-  void setContactForce(const Vector3& force_W) noexcept override { contact_force_W_ = force_W; }
-  void setFloorHeld(double torque) noexcept override { floor_held_ = torque; }
+  void setCircumstances(const Circumstances& now) noexcept override { circumstances_ = now; }
   /// Before the first plan(): then the planner is the solver thread's.
   void setClock(PhaseClock clock) noexcept override { planner_.setClock(clock); }
   void activatePlan() noexcept override;
@@ -43,8 +42,7 @@ class BackgroundMpcLaw final : public ControlLaw {
     StateVector x = StateVector::Zero();
     Vector3 xf = Vector3::Zero();
     JointVector joint_angle = JointVector::Zero();
-    Vector3 contact_force_W = Vector3::Zero();
-    double floor_held = kUnlimited;
+    Circumstances circumstances;
     PolicySample stand_in;
   };
   struct Result {
@@ -54,8 +52,7 @@ class BackgroundMpcLaw final : public ControlLaw {
   void solveForever();
 
   MpcExecution execution_;
-  Vector3 contact_force_W_ = Vector3::Zero();
-  double floor_held_ = kUnlimited;
+  Circumstances circumstances_;
 
   MpcPlanner planner_;  // the solver thread's alone
   LatestValue<Request> requests_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "controller/floor_limited_problem.hpp"
+#include "controller/lost_wheel_problem.hpp"
 #include "controller/mpc_engine.hpp"
 #include "solver/continuous_slq.hpp"
 
@@ -23,6 +24,7 @@ class ContinuousEngine final : public MpcEngine {
   MpcSolveReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
                        MpcPolicy& out) noexcept override;
   void setFloorHeld(double torque) noexcept override { floor_limited_.setHeld(torque); }
+  void setLostWheels(const WheelFlags& lost) noexcept override { lost_wheel_.setLost(lost); }
   void setClock(PhaseClock clock) noexcept override { solver_.setClock(clock); }
   double shift() const noexcept override { return solver_.shift(); }
   void setShift(double shift) noexcept override { solver_.setShift(shift); }
@@ -30,6 +32,7 @@ class ContinuousEngine final : public MpcEngine {
  private:
   ContinuousProblem<NU> problem_;
   FloorLimitedContinuousProblem<NU> floor_limited_;
+  LostWheelContinuousProblem<NU> lost_wheel_;
   ContinuousSlq<kMpcStateDim, NU, CostTerms> solver_;
 };
 

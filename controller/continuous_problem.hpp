@@ -27,6 +27,8 @@ class ContinuousProblem final : public ContinuousControlProblem<kMpcStateDim, NU
                   const GovernedCommands& commands) noexcept;
 
   void setTime(double t) noexcept override;
+  /// Those of the time that was set.
+  Tasks& tasks() noexcept { return tasks_; }
   void flow(const X& x, const U& u, X& dx) const noexcept override;
   void addCostRate(const X& x, const U& u, CostTerms& terms) const noexcept override;
   void expand(const X& x, const U& u, X& dx, Expansion& out) const noexcept override;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "controller/circumstances.hpp"
 #include "controller/cost_terms.hpp"
 #include "core/state_blob.hpp"
 #include "core/time.hpp"
@@ -76,12 +77,8 @@ class ControlLaw {
   virtual PlanReport plan(SimTime now, const StateVector& x,
                           const JointVector& joint_angle) noexcept = 0;
 
-  /// Force of the environment on the end-effector as measured, for the next plan() [N].
-  virtual void setContactForce(const Vector3& force_W) noexcept { (void)force_W; }
-
-  /// What the floor is counted on to hold of the ball's spin about the vertical, for the next
-  /// plan(); without a call, everything [N m].
-  virtual void setFloorHeld(double torque) noexcept { (void)torque; }
+  /// What the next plan() counts on beside the state.
+  virtual void setCircumstances(const Circumstances& now) noexcept { (void)now; }
 
   /// Has the phases of each plan timed.
   virtual void setClock(PhaseClock clock) noexcept { (void)clock; }

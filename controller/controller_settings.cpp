@@ -33,6 +33,11 @@ void describeFloor(ConfigVisitor& v, FloorBelief& floor) {
             [&](ConfigVisitor& in) { floor.describe(in); });
 }
 
+void describeWheelLoss(ConfigVisitor& v, WheelLoss& loss) {
+  v.section(may("wheel_loss", "when a wheel that slips is no longer counted on"),
+            [&](ConfigVisitor& in) { loss.describe(in); });
+}
+
 /// What is learned has to have room to be learned in.
 void requireRange(const ConfigReader& controller, const FloorBelief& floor) {
   if (!floor.limited || !floor.learned) return;
@@ -91,6 +96,7 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
   ConfigReader tracker = in.child("tracker");
   out.tracker = TrackerConfig::read(tracker, robot);
   describeFloor(reading, out.floor);
+  describeWheelLoss(reading, out.wheel_loss);
   requireRange(in, out.floor);
   tracker.finish();
   forEachSection([&](const LawSection& section) { in.raw(section.key.name); });
@@ -113,6 +119,8 @@ void describeController(ConfigVisitor& v, const RobotParameters& robot) {
   describeKnownPayload(v, known_payload);
   FloorBelief floor;
   describeFloor(v, floor);
+  WheelLoss wheel_loss;
+  describeWheelLoss(v, wheel_loss);
   v.section(must("tracker", "follows the law's plan, at the highest rate"),
             [&](ConfigVisitor& in) { tracker.describe(in); });
   forEachSection([&](const LawSection& section) {

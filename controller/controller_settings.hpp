@@ -5,6 +5,7 @@
 
 #include "controller/floor_belief.hpp"
 #include "controller/law_settings.hpp"
+#include "controller/lost_wheels.hpp"
 #include "controller/pd_tracker.hpp"
 
 namespace ballbot {
@@ -16,6 +17,7 @@ class ConfigVisitor;
 ///
 ///     known_payload_kg: 0.5
 ///     floor: {spin_torque_Nm: 0.4}
+///     wheel_loss: {counted_out: true}
 ///     tracker: {...}
 ///     kind: lqr        # | mpc | decoupled, and what was added to lawKinds()
 ///     lqr: {...}
@@ -23,6 +25,7 @@ struct ControllerSettings {
   RobotParameters believed_robot;  ///< with the payload that estimator and law count on
   TrackerConfig tracker;
   FloorBelief floor;
+  WheelLoss wheel_loss;
   std::shared_ptr<const LawSettings> law;
 
   /// Sections of other laws than the chosen one are passed over, so that one file can hold several

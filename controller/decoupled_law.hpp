@@ -41,7 +41,7 @@ class DecoupledLaw final : public ControlLaw {
 
   PlanReport plan(SimTime now, const StateVector& x,
                   const JointVector& joint_angle) noexcept override;
-  void setFloorHeld(double torque) noexcept override { base_.setFloorHeld(torque); }
+  void setCircumstances(const Circumstances& now) noexcept override { base_.setCircumstances(now); }
   void activatePlan() noexcept override;
   void sample(SimTime now, PolicySample& out) const noexcept override;
   void commanded(SimTime now, SimDuration period, const JointVector& torque) noexcept override;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "controller/mpc_policy.hpp"
+#include "model/wheel_flags.hpp"
 #include "solver/slq_report.hpp"
 
 namespace ballbot {
@@ -28,6 +29,8 @@ class MpcEngine {
 
   /// What the floor is counted on to hold of the ball's spin; kUnlimited without end [N m].
   virtual void setFloorHeld(double torque) noexcept = 0;
+  /// Wheels whose torque moves nothing.
+  virtual void setLostWheels(const WheelFlags& lost) noexcept = 0;
 
   virtual void setClock(PhaseClock clock) noexcept = 0;
 

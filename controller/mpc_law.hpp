@@ -16,10 +16,9 @@ class MpcLaw final : public ControlLaw {
 
   PlanReport plan(SimTime now, const StateVector& x,
                   const JointVector& joint_angle) noexcept override;
-  void setContactForce(const Vector3& force_W) noexcept override {
-    planner_.setContactForce(force_W);
+  void setCircumstances(const Circumstances& now) noexcept override {
+    planner_.setCircumstances(now);
   }
-  void setFloorHeld(double torque) noexcept override { planner_.setFloorHeld(torque); }
   void setClock(PhaseClock clock) noexcept override { planner_.setClock(clock); }
   void activatePlan() noexcept override;
   void sample(SimTime now, PolicySample& out) const noexcept override;

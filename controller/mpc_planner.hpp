@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "controller/circumstances.hpp"
 #include "controller/command_governor.hpp"
 #include "controller/contact_supervisor.hpp"
 #include "controller/continuous_engine.hpp"
@@ -64,11 +65,12 @@ class MpcPlanner {
                   const MpcPolicy& previous, MpcPolicy& out) noexcept;
   void setClock(PhaseClock clock) noexcept { engine_->setClock(clock); }
 
-  /// Force of the environment on the end-effector as measured, for the plans that follow [N].
-  void setContactForce(const Vector3& force_W) noexcept { contact_force_W_ = force_W; }
-
-  /// What the floor is counted on to hold of the ball's spin; kUnlimited without end [N m].
-  void setFloorHeld(double torque) noexcept { engine_->setFloorHeld(torque); }
+  /// What the plans that follow count on.
+  void setCircumstances(const Circumstances& now) noexcept {
+    contact_force_W_ = now.contact_force_W;
+    engine_->setFloorHeld(now.floor_held);
+    engine_->setLostWheels(now.lost_wheels);
+  }
 
   /// What the planner makes of the contact; part of the state to be saved.
   const ContactSupervisor& contact() const noexcept { return supervisor_; }

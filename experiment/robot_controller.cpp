@@ -12,7 +12,15 @@ namespace ballbot {
 namespace {
 
 constexpr const char* kBlobKind = "controller";
-constexpr std::uint32_t kBlobVersion = 8;
+constexpr std::uint32_t kBlobVersion = 9;
+
+/// Whatever a lost wheel is asked for moves nothing, and would only make it race.
+void withoutLost(const WheelFlags& lost, ActuatorCommand& command) noexcept {
+  for (int i = 0; i < kWheelCount; ++i) {
+    if (!lost[static_cast<std::size_t>(i)]) continue;
+    command.torque[i] = command.stiffness[i] = command.damping[i] = 0;
+  }
+}
 
 }  // namespace
 
@@ -25,14 +33,18 @@ RobotController::RobotController(const RunConfig& config, EventCalendar& calenda
       tracker_(std::make_unique<PdTracker>(config.controller.tracker)),
       spin_torque_(config.believedRobot()),
       command_share_(config.controller.floor.command_share),
-      state_(FloorHold(config.believedRobot(), config.controller.floor)) {
+      state_(FloorHold(config.believedRobot(), config.controller.floor),
+             LostWheels(config.controller.wheel_loss)) {
   added_[AddedTo::kPlan].list = config.controller.law->addedToPlan();
+  std::vector<AddedSignal>& estimated = added_[AddedTo::kEstimate].list;
   if (sensing_.estimator().knowsSpin()) {
-    added_[AddedTo::kEstimate].list = {
+    estimated = {
         {"ball_spin_rate", "rad/s", "estimated spin of the ball about the vertical"},
         {"sigma_ball_spin_rate", "rad/s", "one standard deviation of ball_spin_rate"},
         {"floor_spin_torque_held", "N m", "what the floor is counted on to hold of that spin"}};
   }
+  estimated.push_back(
+      {"lost_wheel", "", "wheel that is not counted on because it slips, 1 to 3; 0: none"});
   for (AddedSignals& added : added_.of) added.values.assign(added.list.size(), 0.0);
   const Rates& rates = config.scenario.rates;
   // Within one event: estimate, then plan, then track.
@@ -61,7 +73,6 @@ void RobotController::estimate(SimTime now, const SensorFrame& sensors, ControlO
   // Frames in between are not its business: so the log, which keeps one frame per period of the
   // estimator, holds all that it ever saw.
   sensing_.update(sensors);
-  law_->setContactForce(sensing_.contactForce());
   out.has_estimate = true;
   const StateEstimate e = sensing_.write(now, out.estimate);
   if (const auto own = sensing_.estimator().selfAssessment()) {
@@ -71,9 +82,25 @@ void RobotController::estimate(SimTime now, const SensorFrame& sensors, ControlO
   if (now >= release_ && sensing_.estimator().knowsSpin()) {
     state_.floor.update(now, e.x, e.spin_rate, sensors.joint_torque, sensors.joint_velocity);
   }
-  law_->setFloorHeld(state_.floor.held());
-  AddedSignals& added = added_[AddedTo::kEstimate];
-  if (!added.empty()) added.values = {e.spin_rate, e.spin_rate_sigma, state_.floor.held()};
+  if (now >= release_) followWheels(now, sensors);
+  tellLaw();
+  auto value = added_[AddedTo::kEstimate].values.begin();
+  if (sensing_.estimator().knowsSpin()) {
+    for (const double v : {e.spin_rate, e.spin_rate_sigma, state_.floor.held()}) *value++ = v;
+  }
+  *value = state_.wheels.number();
+}
+
+void RobotController::followWheels(SimTime now, const SensorFrame& sensors) noexcept {
+  const WheelFlags refused =
+      state_.refused_wheels.since(sensing_.estimator().rejections(), sensors.joint_velocity);
+  // A plan that counts on a wheel which is gone, or leaves out one which is back, is to be
+  // replaced.
+  if (state_.wheels.update(now, refused)) state_.plan_now = true;
+}
+
+void RobotController::tellLaw() noexcept {
+  law_->setCircumstances({sensing_.contactForce(), state_.floor.held(), state_.wheels.lost()});
 }
 
 void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutput& out) {
@@ -132,7 +159,9 @@ void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutp
       ++state_.ticks_not_finite;
       break;
   }
-  if (const double held = state_.floor.held(); held < kUnlimited) {
+  if (state_.wheels.any()) {
+    withoutLost(state_.wheels.lost(), out.command);
+  } else if (const double held = state_.floor.held(); held < kUnlimited) {
     spin_torque_.cut(command_share_ * held, x, out.command.torque);
   }
   if (now >= release_) {
@@ -180,8 +209,8 @@ void RobotController::restore(const StateBlob& blob, bool with_law) {
   restoreStateOf(whole, blob, kBlobKind, kBlobVersion);
   sensing_.restore(whole.sensing);
   if (with_law) law_->restoreState(whole.law);
-  law_->setContactForce(sensing_.contactForce());
   state_ = whole.state;
+  tellLaw();
 }
 
 std::map<std::string, double> RobotController::metrics() const {
@@ -192,6 +221,7 @@ std::map<std::string, double> RobotController::metrics() const {
   out["plans_refused"] = number(state_.plans_refused);
   out["plans_on_fallback"] = number(state_.plans_on_fallback);
   out["plans_with_cut_commands"] = number(state_.plans_cut);
+  out["wheels_lost"] = number(state_.wheels.losses());
   out["ticks_saturated"] = number(state_.ticks_saturated);
   out["ticks_not_finite"] = number(state_.ticks_not_finite);
   if (state_.ticks_released > 0) {

@@ -8,9 +8,11 @@
 
 #include "controller/control_law.hpp"
 #include "controller/floor_hold.hpp"
+#include "controller/lost_wheels.hpp"
 #include "controller/pd_tracker.hpp"
 #include "cosim/schedule.hpp"
 #include "cosim/stepped_controller.hpp"
+#include "estimator/refused_wheels.hpp"
 #include "experiment/robot_sensing.hpp"
 #include "experiment/scenario.hpp"
 #include "metrics/feedforward_share.hpp"
@@ -44,10 +46,13 @@ class RobotController final : public SteppedController {
  private:
   /// What goes on from one event to the next, but for the parts that keep their own.
   struct State {
-    explicit State(const FloorHold& at_first) : floor(at_first) {}
+    State(const FloorHold& floor_at_first, const LostWheels& wheels_at_first)
+        : floor(floor_at_first), wheels(wheels_at_first) {}
 
     PolicySample policy;
     FloorHold floor;
+    RefusedWheels refused_wheels;
+    LostWheels wheels;
     FeedforwardShare feedforward_share;
     bool plan_pending = false;
     bool has_policy = false;
@@ -74,11 +79,16 @@ class RobotController final : public SteppedController {
       visit(self.ticks_on_fallback);
       visit(self.feedforward_share);
       visit(self.floor);
+      visit(self.refused_wheels);
+      visit(self.wheels);
     }
   };
   /// What is saved.
   struct Whole;
   void restore(const StateBlob& blob, bool with_law);
+  void followWheels(SimTime now, const SensorFrame& sensors) noexcept;
+  /// What is known, to the law.
+  void tellLaw() noexcept;
   void estimate(SimTime now, const SensorFrame& sensors, ControlOutput& out);
   void plan(SimTime now, const SensorFrame& sensors, ControlOutput& out);
   void track(SimTime now, const SensorFrame& sensors, ControlOutput& out);

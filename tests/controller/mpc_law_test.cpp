@@ -292,7 +292,9 @@ TEST_F(MpcLawTest, NoCallOfTheControlStepAllocates) {
   bool accepted = true;
   for (int i = 0; i < 10; ++i) {
     const SimTime now = simTimeFromNs(i * 14'000'000LL);
-    law.setContactForce(Vector3(-3, 0, 0));
+    Circumstances touched;
+    touched.contact_force_W = Vector3(-3, 0, 0);
+    law.setCircumstances(touched);
     accepted = law.plan(now, x, joints).accepted && accepted;
     law.activatePlan();
     law.sample(now, sample);

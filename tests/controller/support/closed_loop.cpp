@@ -45,7 +45,9 @@ std::vector<ClosedLoopSample> runClosedLoop(ControlLaw& law, const TrackerConfig
     }
     if (k % 6 == 0) x = measured(plant.x(), options.noise, k);  // the estimator's 400 Hz
     if (options.touch) {
-      law.setContactForce(options.touch(t, dynamics.endEffector(plant.x())));
+      Circumstances touched;
+      touched.contact_force_W = options.touch(t, dynamics.endEffector(plant.x()));
+      law.setCircumstances(touched);
     }
     if (k % options.plan_steps == 0) {
       report = law.plan(now, x, plant.jointAngle());

@@ -1,0 +1,38 @@
+#include "controller/lost_wheels.hpp"
+
+#include "core/config_visitor.hpp"
+
+namespace ballbot {
+
+void WheelLoss::describe(ConfigVisitor& v) {
+  v.boolean(may("counted_out",
+                "whether a wheel that slips is left out of plans and gets no torque, until it "
+                "grips again"),
+            counted_out);
+  v.duration(may("after_ms", "how long the estimator refuses a wheel until it counts as lost"),
+             after, {1, 1e3});
+  v.duration(may("trusted_after_ms",
+                 "how long the estimator believes a lost wheel until it is counted on again"),
+             trusted_after, {1, 1e4});
+}
+
+bool LostWheels::update(SimTime now, const WheelFlags& refused) noexcept {
+  if (!settings_.counted_out) return false;
+  const WheelFlags before = lost_;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    if (refused[i] != refused_[i]) {
+      refused_[i] = refused[i];
+      since_[i] = now;
+    }
+    if (lost_[i] && !refused_[i] && now - since_[i] >= settings_.trusted_after) lost_[i] = false;
+  }
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    if (any() || !refused_[i] || now - since_[i] < settings_.after) continue;
+    if (std::count(refused_.begin(), refused_.end(), true) > 1) break;
+    lost_[i] = true;
+    ++losses_;
+  }
+  return lost_ != before;
+}
+
+}  // namespace ballbot

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "core/time.hpp"
+#include "model/wheel_flags.hpp"
+
+namespace ballbot {
+
+class ConfigVisitor;
+
+/// When a wheel is no longer counted on.
+struct WheelLoss {
+  bool counted_out = true;
+  /// Refused by the estimator for so long without a break, it slips.
+  SimDuration after = std::chrono::milliseconds(10);
+  /// Believed for so long without a break, it grips again: without torque a wheel that slips soon
+  /// turns with the ball, and would be trusted too early.
+  SimDuration trusted_after = std::chrono::milliseconds(100);
+
+  void describe(ConfigVisitor& v);
+};
+
+/// Which wheel has let go of the ball, or drives it no longer. At most one: where the estimator
+/// refuses several it is the state that fits nothing, and one wheel alone balances nothing. Free of
+/// allocation; for the control step.
+class LostWheels {
+ public:
+  explicit LostWheels(const WheelLoss& settings) : settings_(settings) {}
+
+  /// One frame of the estimator.
+  /// @param refused  turn as the ball does not: what the estimator refuses of wheels that turn
+  /// @return whether something changed
+  bool update(SimTime now, const WheelFlags& refused) noexcept;
+
+  const WheelFlags& lost() const noexcept { return lost_; }
+  /// Of the lost wheel, from 1; 0 where there is none.
+  int number() const noexcept {
+    for (std::size_t i = 0; i < kWheelCount; ++i) {
+      if (lost_[i]) return static_cast<int>(i) + 1;
+    }
+    return 0;
+  }
+  bool any() const noexcept { return ballbot::any(lost_); }
+  std::int64_t losses() const noexcept { return losses_; }  ///< since the start
+
+  template <typename Self, typename Visitor>
+  static void visitState(Self& self, Visitor& visit) {
+    visit(self.lost_);
+    visit(self.refused_);
+    visit(self.since_);
+    visit(self.losses_);
+  }
+
+ private:
+  WheelLoss settings_;
+  WheelFlags lost_{}, refused_{};
+  std::array<SimTime, kWheelCount> since_{};  ///< when refused_ became what it is
+  std::int64_t losses_ = 0;
+};
+
+}  // namespace ballbot

@@ -1,0 +1,160 @@
+#include "controller/lost_wheels.hpp"
+
+#include <gtest/gtest.h>
+
+#include "controller/mpc_planner.hpp"
+#include "tests/model/robot_fixture.hpp"
+
+namespace ballbot {
+namespace {
+
+SimTime at(double ms) { return simTimeFromNs(static_cast<std::int64_t>(ms * 1e6)); }
+
+TEST(LostWheels, AreThoseRefusedWithoutABreak) {
+  LostWheels wheels{WheelLoss{}};
+  const WheelFlags second{false, true, false}, none{};
+  EXPECT_FALSE(wheels.update(at(0), second));
+  EXPECT_FALSE(wheels.update(at(7.5), second));
+  EXPECT_FALSE(wheels.update(at(8), none)) << "a spike";
+  EXPECT_FALSE(wheels.update(at(10), second));
+  EXPECT_FALSE(wheels.update(at(17.5), second));
+  EXPECT_TRUE(wheels.update(at(20), second));
+  EXPECT_EQ(wheels.lost(), second);
+  EXPECT_FALSE(wheels.update(at(100), none));
+  EXPECT_FALSE(wheels.update(at(190), second)) << "not believed for long enough";
+  EXPECT_FALSE(wheels.update(at(192.5), none));
+  EXPECT_FALSE(wheels.update(at(290), none));
+  EXPECT_TRUE(wheels.update(at(292.5), none));
+  EXPECT_FALSE(wheels.any());
+  EXPECT_EQ(wheels.losses(), 1);
+}
+
+TEST(LostWheels, SeveralAtOnceAreAStateThatFitsNothing) {
+  LostWheels wheels{WheelLoss{}};
+  for (double ms = 0; ms < 100; ms += 2.5) {
+    EXPECT_FALSE(wheels.update(at(ms), {true, true, false}));
+  }
+  EXPECT_TRUE(wheels.update(at(100), {true, false, false})) << "the one that is left";
+  EXPECT_FALSE(wheels.update(at(200), {true, true, false})) << "one is enough";
+  EXPECT_EQ(wheels.lost(), (WheelFlags{true, false, false}));
+}
+
+TEST(LostWheels, AreKeptWhereAsked) {
+  WheelLoss settings;
+  settings.counted_out = false;
+  LostWheels wheels(settings);
+  for (double ms = 0; ms < 100; ms += 2.5) wheels.update(at(ms), {true, false, false});
+  EXPECT_FALSE(wheels.any());
+}
+
+class PlanWithoutAWheel : public testing::Test {
+ protected:
+  PlanWithoutAWheel() : config_(robot_) {
+    config_.horizon.length = 0.6;
+    config_.shaping = {40, 200};
+    auto tasks = std::make_shared<TaskSchedule>(robot_);
+    tasks->ball_position_weight = TimedWeight<2>(Eigen::Vector2d::Constant(100));
+    tasks->ball_velocity_weight = TimedWeight<2>(Eigen::Vector2d::Constant(10));
+    tasks->base_rate_weight = TimedWeight<3>(Vector3::Constant(4));
+    tasks->arm_rate_weight = TimedWeight<3>(Vector3::Constant(0.5));
+    tasks->wheel_torque_weight = TimedWeight<1>(Eigen::Matrix<double, 1, 1>(2));
+    tasks->arm_torque_weight = TimedWeight<1>(Eigen::Matrix<double, 1, 1>(0.1));
+    config_.schedule = tasks;
+    x0_ << lqr_.equilibrium.x, Vector3(0.5, -0.3, 0.2);
+    x0_[kBallX] = 0.05;
+    x0_[kPitch] += 0.04;
+    x0_[kPositionDim + kOmegaX] = 0.2;
+  }
+  MpcPolicy seedFor(const MpcEngine& engine) const {
+    MpcPolicy seed = engine.emptyPolicy();
+    for (auto& knot : seed.knots()) knot.x << lqr_.equilibrium.x, Vector3::Zero();
+    for (auto& control : seed.controls()) {
+      control.u << lqr_.equilibrium.tau, ContactInput::Zero();
+      control.K.topLeftCorner<kJointCount, kStateDim>() = lqr_.K;
+    }
+    seed.setValid(kSimStart);
+    return seed;
+  }
+  MpcSolveReport solve(MpcEngine& engine, int iterations, MpcPolicy& out) const {
+    return engine.solve(kSimStart, x0_, seedFor(engine), iterations, out);
+  }
+
+  RobotParameters robot_ = exampleRobot();
+  LqrSolution lqr_ = designLqr(ReducedDynamics(robot_), robot_.nominal_arm, LqrWeights{});
+  MpcConfig config_;
+  MpcState x0_;
+};
+
+constexpr WheelFlags kSecond{false, true, false};
+
+TEST_F(PlanWithoutAWheel, AsksNothingOfItAndMovesAsTheRobotWouldWithoutIt) {
+  config_.horizon.coarse_step = 0.0025;
+  const auto engine = makeEngine(robot_, config_);
+  engine->setLostWheels(kSecond);
+  MpcPolicy plan = engine->emptyPolicy();
+  ASSERT_EQ(solve(*engine, 60, plan).status, SlqStatus::kConverged);
+  double others = 0;
+  for (const auto& control : plan.controls()) {
+    EXPECT_NEAR(control.u[1], 0, 1e-9);
+    EXPECT_EQ(control.K.row(1).norm(), 0);
+    others = std::max(others, std::abs(control.u[0]));
+  }
+  EXPECT_GT(others, 0.3);
+
+  // The planned torques on the model, in small steps.
+  const ReducedDynamics dynamics(robot_);
+  StateVector x = x0_.head<kStateDim>();
+  constexpr int kSteps = 20;
+  for (const auto& control : plan.controls()) {
+    JointVector tau = control.u.head<kJointCount>();
+    tau[1] = 0;
+    const double h = config_.horizon.coarse_step / kSteps;
+    for (int i = 0; i < kSteps; ++i) {
+      const StateVector slope = dynamics.derivative(x, tau, Vector3::Zero());
+      x += h * dynamics.derivative(x + 0.5 * h * slope, tau, Vector3::Zero());
+    }
+  }
+  const StateVector planned = plan.knots().back().x.head<kStateDim>();
+  EXPECT_LT((x - planned).cwiseAbs().maxCoeff(), 0.015);
+}
+
+TEST_F(PlanWithoutAWheel, IsTheSameInBothEngines) {
+  MpcSolveReport report[2];
+  for (const auto kind : {MpcConfig::Engine::kDiscrete, MpcConfig::Engine::kContinuous}) {
+    config_.engine = kind;
+    const bool continuous = kind == MpcConfig::Engine::kContinuous;
+    config_.horizon.coarse_step = continuous ? 0.01 : 0.0025;
+    const auto engine = makeEngine(robot_, config_);
+    engine->setLostWheels(kSecond);
+    MpcPolicy plan = engine->emptyPolicy();
+    report[continuous ? 1 : 0] = solve(*engine, 60, plan);
+    ASSERT_TRUE(report[continuous ? 1 : 0].ok());
+  }
+  EXPECT_NEAR(report[0].cost, report[1].cost, 2e-3 * report[1].cost);
+}
+
+TEST_F(PlanWithoutAWheel, LeavesNothingBehind) {
+  for (const auto kind : {MpcConfig::Engine::kDiscrete, MpcConfig::Engine::kContinuous}) {
+    for (const double held : {0.4, kUnlimited}) {
+      config_.engine = kind;
+      const auto used = makeEngine(robot_, config_), fresh = makeEngine(robot_, config_);
+      MpcPolicy a = used->emptyPolicy(), b = a;
+      used->setFloorHeld(0.4);
+      ASSERT_TRUE(solve(*used, 2, a).ok());
+      used->setLostWheels(kSecond);
+      ASSERT_TRUE(solve(*used, 2, a).ok());
+      used->setLostWheels({});
+      used->setShift(fresh->shift());
+      for (MpcEngine* engine : {used.get(), fresh.get()}) engine->setFloorHeld(held);
+      ASSERT_TRUE(solve(*used, 2, a).ok());
+      ASSERT_TRUE(solve(*fresh, 2, b).ok());
+      for (std::size_t k = 0; k < a.controls().size(); ++k) {
+        ASSERT_EQ(a.controls()[k].u, b.controls()[k].u);
+        ASSERT_EQ(a.controls()[k].K, b.controls()[k].K);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ballbot
