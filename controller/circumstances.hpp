@@ -13,6 +13,9 @@ struct Circumstances {
   /// [N m].
   double floor_held = kUnlimited;
   WheelFlags lost_wheels{};  ///< whose torque moves nothing
+  /// A force on the robot that acts now, in the rows of nu, and the time over which it fades.
+  VelocityVector push = VelocityVector::Zero();  ///< [N, N m]
+  double push_lasts = 1;                         ///< [s]
 };
 
 }  // namespace ballbot

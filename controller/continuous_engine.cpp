@@ -23,8 +23,6 @@ ContinuousEngine<NU>::ContinuousEngine(const RobotParameters& robot, const Const
                                        const SlqOptions& options,
                                        const ContinuousOptions& continuous)
     : problem_(robot, constraints, shaping, terminal, std::move(schedule)),
-      floor_limited_(robot, constraints, problem_),
-      lost_wheel_(problem_),
       solver_(knots, options, continuous, stateSize()) {}
 
 template <int NU>
@@ -43,13 +41,10 @@ MpcPolicy ContinuousEngine<NU>::emptyPolicy() const {
 template <int NU>
 MpcSolveReport ContinuousEngine<NU>::solve(SimTime now, const MpcState& x0, const MpcPolicy& guess,
                                            int iterations, MpcPolicy& out) noexcept {
-  problem_.setHorizon(toSeconds(now), contact_, commands_);
+  typename ContinuousPlanProblem<NU>::Base& problem =
+      problem_.at(toSeconds(now), contact_, commands_);
   const double age = toSeconds(now - guess.stamp());
-  typename ContinuousProblem<NU>::Base* problem = &problem_;
-  if (floor_limited_.isLimited()) problem = &floor_limited_;
-  if (lost_wheel_.isLost()) problem = &lost_wheel_;
-  const MpcSolveReport report =
-      solver_.solve(*problem, x0, PolicyGuess<NU>(guess), age, iterations);
+  const MpcSolveReport report = solver_.solve(problem, x0, PolicyGuess<NU>(guess), age, iterations);
   if (report.ok()) setPolicy(solver_.solution(), now, out);
   return report;
 }

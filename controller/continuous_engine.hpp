@@ -3,9 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "controller/floor_limited_problem.hpp"
-#include "controller/lost_wheel_problem.hpp"
 #include "controller/mpc_engine.hpp"
+#include "controller/plan_problem.hpp"
 #include "solver/continuous_slq.hpp"
 
 namespace ballbot {
@@ -23,16 +22,15 @@ class ContinuousEngine final : public MpcEngine {
   MpcPolicy emptyPolicy() const override;
   MpcSolveReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
                        MpcPolicy& out) noexcept override;
-  void setFloorHeld(double torque) noexcept override { floor_limited_.setHeld(torque); }
-  void setLostWheels(const WheelFlags& lost) noexcept override { lost_wheel_.setLost(lost); }
+  void setFloorHeld(double torque) noexcept override { problem_.setFloorHeld(torque); }
+  void setLostWheels(const WheelFlags& lost) noexcept override { problem_.setLostWheels(lost); }
+  void setPush(const Push& push) noexcept override { problem_.setPush(push); }
   void setClock(PhaseClock clock) noexcept override { solver_.setClock(clock); }
   double shift() const noexcept override { return solver_.shift(); }
   void setShift(double shift) noexcept override { solver_.setShift(shift); }
 
  private:
-  ContinuousProblem<NU> problem_;
-  FloorLimitedContinuousProblem<NU> floor_limited_;
-  LostWheelContinuousProblem<NU> lost_wheel_;
+  ContinuousPlanProblem<NU> problem_;
   ContinuousSlq<kMpcStateDim, NU, CostTerms> solver_;
 };
 

@@ -38,6 +38,11 @@ void describeWheelLoss(ConfigVisitor& v, WheelLoss& loss) {
             [&](ConfigVisitor& in) { loss.describe(in); });
 }
 
+void describePush(ConfigVisitor& v, PushBelief& push) {
+  v.section(may("push", "what is made of a force that acts now and that nothing explains"),
+            [&](ConfigVisitor& in) { push.describe(in); });
+}
+
 /// What is learned has to have room to be learned in.
 void requireRange(const ConfigReader& controller, const FloorBelief& floor) {
   if (!floor.limited || !floor.learned) return;
@@ -97,6 +102,7 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
   out.tracker = TrackerConfig::read(tracker, robot);
   describeFloor(reading, out.floor);
   describeWheelLoss(reading, out.wheel_loss);
+  describePush(reading, out.push);
   requireRange(in, out.floor);
   tracker.finish();
   forEachSection([&](const LawSection& section) { in.raw(section.key.name); });
@@ -121,6 +127,8 @@ void describeController(ConfigVisitor& v, const RobotParameters& robot) {
   describeFloor(v, floor);
   WheelLoss wheel_loss;
   describeWheelLoss(v, wheel_loss);
+  PushBelief push;
+  describePush(v, push);
   v.section(must("tracker", "follows the law's plan, at the highest rate"),
             [&](ConfigVisitor& in) { tracker.describe(in); });
   forEachSection([&](const LawSection& section) {

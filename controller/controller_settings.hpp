@@ -7,6 +7,7 @@
 #include "controller/law_settings.hpp"
 #include "controller/lost_wheels.hpp"
 #include "controller/pd_tracker.hpp"
+#include "controller/push_belief.hpp"
 
 namespace ballbot {
 
@@ -26,6 +27,7 @@ struct ControllerSettings {
   TrackerConfig tracker;
   FloorBelief floor;
   WheelLoss wheel_loss;
+  PushBelief push;
   std::shared_ptr<const LawSettings> law;
 
   /// Sections of other laws than the chosen one are passed over, so that one file can hold several

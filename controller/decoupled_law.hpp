@@ -41,7 +41,11 @@ class DecoupledLaw final : public ControlLaw {
 
   PlanReport plan(SimTime now, const StateVector& x,
                   const JointVector& joint_angle) noexcept override;
-  void setCircumstances(const Circumstances& now) noexcept override { base_.setCircumstances(now); }
+  void setCircumstances(const Circumstances& now) noexcept override {
+    Circumstances of_base = now;
+    of_base.push.tail<kArmJointCount>().setZero();  // its integral takes care of the arm's
+    base_.setCircumstances(of_base);
+  }
   void activatePlan() noexcept override;
   void sample(SimTime now, PolicySample& out) const noexcept override;
   void commanded(SimTime now, SimDuration period, const JointVector& torque) noexcept override;

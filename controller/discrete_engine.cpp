@@ -10,10 +10,7 @@ DiscreteEngine<NU>::DiscreteEngine(const RobotParameters& robot, const Constrain
                                    const std::vector<double>& knots,
                                    std::shared_ptr<const TaskSchedule> schedule,
                                    const SlqOptions& options)
-    : schedule_(std::move(schedule)),
-      problem_(robot, constraints, shaping, terminal, knots),
-      floor_limited_(robot, constraints, knots, problem_),
-      lost_wheel_(problem_),
+    : problem_(robot, constraints, shaping, terminal, knots, std::move(schedule)),
       solver_(knots, options) {}
 
 template <int NU>
@@ -32,16 +29,9 @@ MpcPolicy DiscreteEngine<NU>::emptyPolicy() const {
 template <int NU>
 MpcSolveReport DiscreteEngine<NU>::solve(SimTime now, const MpcState& x0, const MpcPolicy& guess,
                                          int iterations, MpcPolicy& out) noexcept {
-  problem_.setTasks(*schedule_, toSeconds(now), contact_, commands_);
+  const typename PlanProblem<NU>::Base& problem = problem_.at(toSeconds(now), contact_, commands_);
   const double age = toSeconds(now - guess.stamp());
-  const typename WholeBodyProblem<NU>::Base* problem = &problem_;
-  if (floor_limited_.isLimited()) problem = &floor_limited_;
-  if (lost_wheel_.isLost()) {
-    for (int k = 0; k <= problem_.stages(); ++k) giveUpYaw(problem_.tasks(k));
-    problem = &lost_wheel_;
-  }
-  const MpcSolveReport report =
-      solver_.solve(*problem, x0, PolicyGuess<NU>(guess), age, iterations);
+  const MpcSolveReport report = solver_.solve(problem, x0, PolicyGuess<NU>(guess), age, iterations);
   if (report.ok()) setPolicy(solver_.solution(), now, out);
   return report;
 }

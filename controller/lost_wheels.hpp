@@ -32,13 +32,6 @@ class LostWheels {
   bool update(SimTime now, const WheelFlags& refused) noexcept;
 
   const WheelFlags& lost() const noexcept { return lost_; }
-  /// Of the lost wheel, from 1; 0 where there is none.
-  int number() const noexcept {
-    for (std::size_t i = 0; i < kWheelCount; ++i) {
-      if (lost_[i]) return static_cast<int>(i) + 1;
-    }
-    return 0;
-  }
   bool any() const noexcept { return ballbot::any(lost_); }
   std::int64_t losses() const noexcept { return losses_; }  ///< since the start
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "controller/mpc_policy.hpp"
+#include "controller/pushed_problem.hpp"
 #include "model/wheel_flags.hpp"
 #include "solver/slq_report.hpp"
 
@@ -31,6 +32,7 @@ class MpcEngine {
   virtual void setFloorHeld(double torque) noexcept = 0;
   /// Wheels whose torque moves nothing.
   virtual void setLostWheels(const WheelFlags& lost) noexcept = 0;
+  virtual void setPush(const Push& push) noexcept = 0;
 
   virtual void setClock(PhaseClock clock) noexcept = 0;
 

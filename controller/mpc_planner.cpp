@@ -222,6 +222,10 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
   governor_.update(now, *config_.schedule, x, tip);
   engine_->setCommands(governor_.commands());
   report.command_cut = governor_.cutting();
+  // Where contact is planned, what is felt is the contact.
+  if (!config_.contact_forces) {
+    engine_->setPush(Push::on(dynamics_, x.head<kPositionDim>(), push_, push_lasts_));
+  }
   const bool fresh = previous.valid() && now - previous.stamp() <= config_.fallback_after;
   if (!fresh) seedFrom(stand_in, now, x[kYaw]);
   MpcState x0;

@@ -70,6 +70,8 @@ class MpcPlanner {
     contact_force_W_ = now.contact_force_W;
     engine_->setFloorHeld(now.floor_held);
     engine_->setLostWheels(now.lost_wheels);
+    push_ = now.push;
+    push_lasts_ = now.push_lasts;
   }
 
   /// What the planner makes of the contact; part of the state to be saved.
@@ -94,6 +96,8 @@ class MpcPlanner {
   ContactSupervisor supervisor_;
   CommandGovernor governor_;
   Vector3 contact_force_W_ = Vector3::Zero();
+  VelocityVector push_ = VelocityVector::Zero();
+  double push_lasts_ = 1;
   std::unique_ptr<MpcEngine> engine_;
   std::vector<FeedbackGain> seed_gains_;  ///< per control of the seed, at zero yaw
   MpcPolicy seed_;

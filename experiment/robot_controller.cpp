@@ -34,7 +34,7 @@ RobotController::RobotController(const RunConfig& config, EventCalendar& calenda
       spin_torque_(config.believedRobot()),
       command_share_(config.controller.floor.command_share),
       state_(FloorHold(config.believedRobot(), config.controller.floor),
-             LostWheels(config.controller.wheel_loss)) {
+             LostWheels(config.controller.wheel_loss), PushEstimate(config.controller.push)) {
   added_[AddedTo::kPlan].list = config.controller.law->addedToPlan();
   std::vector<AddedSignal>& estimated = added_[AddedTo::kEstimate].list;
   if (sensing_.estimator().knowsSpin()) {
@@ -43,8 +43,10 @@ RobotController::RobotController(const RunConfig& config, EventCalendar& calenda
         {"sigma_ball_spin_rate", "rad/s", "one standard deviation of ball_spin_rate"},
         {"floor_spin_torque_held", "N m", "what the floor is counted on to hold of that spin"}};
   }
-  estimated.push_back(
-      {"lost_wheel", "", "wheel that is not counted on because it slips, 1 to 3; 0: none"});
+  if (config.controller.push.counted_on) {
+    estimated.push_back({"push_force_x", "N", "push that plans count on, along x of W"});
+    estimated.push_back({"push_force_y", "N", "push that plans count on, along y of W"});
+  }
   for (AddedSignals& added : added_.of) added.values.assign(added.list.size(), 0.0);
   const Rates& rates = config.scenario.rates;
   // Within one event: estimate, then plan, then track.
@@ -82,13 +84,19 @@ void RobotController::estimate(SimTime now, const SensorFrame& sensors, ControlO
   if (now >= release_ && sensing_.estimator().knowsSpin()) {
     state_.floor.update(now, e.x, e.spin_rate, sensors.joint_torque, sensors.joint_velocity);
   }
-  if (now >= release_) followWheels(now, sensors);
+  if (now >= release_) {
+    followWheels(now, sensors);
+    followPush(now);
+  }
   tellLaw();
   auto value = added_[AddedTo::kEstimate].values.begin();
   if (sensing_.estimator().knowsSpin()) {
     for (const double v : {e.spin_rate, e.spin_rate_sigma, state_.floor.held()}) *value++ = v;
   }
-  *value = state_.wheels.number();
+  if (state_.push.settings().counted_on) {
+    *value++ = state_.push.force()[kBallVx];
+    *value++ = state_.push.force()[kBallVy];
+  }
 }
 
 void RobotController::followWheels(SimTime now, const SensorFrame& sensors) noexcept {
@@ -99,8 +107,20 @@ void RobotController::followWheels(SimTime now, const SensorFrame& sensors) noex
   if (state_.wheels.update(now, refused)) state_.plan_now = true;
 }
 
+void RobotController::followPush(SimTime now) noexcept {
+  // A jump that the first sample of a push is refused for says nothing against it.
+  const RejectionCounts counts = sensing_.estimator().rejections();
+  const std::int64_t rejected = counts.total() - counts[Rejection::kAccelSpike] -
+                                counts[Rejection::kGyroSpike] -
+                                counts[Rejection::kAccelInconsistent];
+  const bool doubtful = rejected != state_.rejected || state_.wheels.any();
+  state_.rejected = rejected;
+  state_.push.update(now, sensing_.unexplainedForce(), doubtful);
+}
+
 void RobotController::tellLaw() noexcept {
-  law_->setCircumstances({sensing_.contactForce(), state_.floor.held(), state_.wheels.lost()});
+  law_->setCircumstances({sensing_.contactForce(), state_.floor.held(), state_.wheels.lost(),
+                          state_.push.force(), state_.push.settings().lasts});
 }
 
 void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutput& out) {

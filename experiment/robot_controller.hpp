@@ -10,6 +10,7 @@
 #include "controller/floor_hold.hpp"
 #include "controller/lost_wheels.hpp"
 #include "controller/pd_tracker.hpp"
+#include "controller/push_belief.hpp"
 #include "cosim/schedule.hpp"
 #include "cosim/stepped_controller.hpp"
 #include "estimator/refused_wheels.hpp"
@@ -46,13 +47,16 @@ class RobotController final : public SteppedController {
  private:
   /// What goes on from one event to the next, but for the parts that keep their own.
   struct State {
-    State(const FloorHold& floor_at_first, const LostWheels& wheels_at_first)
-        : floor(floor_at_first), wheels(wheels_at_first) {}
+    State(const FloorHold& floor_at_first, const LostWheels& wheels_at_first,
+          const PushEstimate& push_at_first)
+        : floor(floor_at_first), wheels(wheels_at_first), push(push_at_first) {}
 
     PolicySample policy;
     FloorHold floor;
     RefusedWheels refused_wheels;
     LostWheels wheels;
+    PushEstimate push;
+    std::int64_t rejected = 0;  ///< by the estimator so far
     FeedforwardShare feedforward_share;
     bool plan_pending = false;
     bool has_policy = false;
@@ -81,12 +85,15 @@ class RobotController final : public SteppedController {
       visit(self.floor);
       visit(self.refused_wheels);
       visit(self.wheels);
+      visit(self.push);
+      visit(self.rejected);
     }
   };
   /// What is saved.
   struct Whole;
   void restore(const StateBlob& blob, bool with_law);
   void followWheels(SimTime now, const SensorFrame& sensors) noexcept;
+  void followPush(SimTime now) noexcept;
   /// What is known, to the law.
   void tellLaw() noexcept;
   void estimate(SimTime now, const SensorFrame& sensors, ControlOutput& out);

@@ -26,6 +26,9 @@ class RobotSensing {
   StateEstimate estimate(SimTime now) const noexcept { return estimator_->estimate(now); }
   /// Environment on the end-effector, in W [N]; zero while held.
   const Vector3& contactForce() const noexcept { return contact_force_.force(); }
+  /// Of the forces on the robot, what the model does not explain, in the rows of nu; zero while
+  /// held.
+  const VelocityVector& unexplainedForce() const noexcept { return contact_force_.residual(); }
   /// As it goes on record; the tick is the recorder's.
   StateEstimate write(SimTime now, EstimateFrame& out) const noexcept;
 
