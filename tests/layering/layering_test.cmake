@@ -14,8 +14,8 @@ set(may_experiment core model cosim plant estimator controller metrics report fm
 set(may_hil core model cosim plant report)
 set(may_fmi core model cosim plant)
 set(may_studies core experiment report)
-set(may_capture core model controller)
-set(may_tools core model messages cosim metrics report experiment hil fmi studies)
+set(may_capture core model controller experiment studies report)
+set(may_tools core model messages cosim metrics report experiment hil fmi studies capture)
 set(may_examples solver)
 
 # The plant's face to the co-simulation is the one file of plant/ that knows cosim.
