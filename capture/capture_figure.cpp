@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 // The curves of what was survived get the other colours.
-constexpr int kBoundColour = 5, kVariantColours = 5;
+constexpr int kBoundColour = 0, kVariantColours = 5;
 
 void addBounds(SvgPolar& axes, const CaptureRequest& request, const BoundRequest& wanted,
                const std::vector<CaptureBound>& bounds, std::size_t duration, std::size_t height) {
@@ -47,8 +47,12 @@ std::string captureFigure(const CaptureRequest& request, const BoundRequest& bou
       axes.y_name = "y, to the left";
       addBounds(axes, request, bound_request, bounds, d, h);
       for (std::size_t v = 0; v < request.variants.size(); ++v) {
-        SvgPolarCurve curve{
-            request.variants[v].label, static_cast<int>(v) % kVariantColours, false, true, {}, {}};
+        SvgPolarCurve curve{request.variants[v].label,
+                            1 + static_cast<int>(v) % kVariantColours,
+                            false,
+                            true,
+                            {},
+                            {}};
         for (const CaptureEdge& e : edges) {
           if (e.variant != v || e.duration != d || e.height != h) continue;
           curve.angle_deg.push_back(request.directionDeg(e.direction));

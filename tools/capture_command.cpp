@@ -27,8 +27,8 @@ namespace {
 
 // Beyond the bound there is only what the bound leaves out.
 constexpr double kBeyondBound = 1.2;
-// Angles of the drawn bound for each direction that is searched.
-constexpr int kDrawnPerDirection = 2;
+// The drawn bound has so many angles at least, however few directions are searched.
+constexpr int kDrawnAngles = 16;
 
 struct CaptureArguments {
   CaptureRequest request;
@@ -103,6 +103,19 @@ void readVariants(CaptureArguments& a) {
   requireDifferent(a.request.heights_m, "--height-m");
 }
 
+/// A push on a robot that is held would be survived at any force.
+void requireReleased(const CaptureRequest& r, const ConfigNode& scenario_tree) {
+  for (const CaptureVariant& v : r.variants) {
+    std::vector<std::string> overrides = r.overrides;
+    overrides.insert(overrides.end(), v.overrides.begin(), v.overrides.end());
+    const double release_s = toSeconds(readScenario(scenario_tree, overrides).release);
+    if (release_s < r.start_s) continue;
+    throw InputError(
+        fmt::format("--start-s {:g}: a stand holds the robot until {:g} s ({}); push it later",
+                    r.start_s, release_s, v.label));
+  }
+}
+
 ExitCode printBounds(const CaptureArguments& a, const CaptureFindings& findings) {
   if (a.json) {
     fmt::print("{}\n", jsonText(captureJson(findings)));
@@ -112,27 +125,82 @@ ExitCode printBounds(const CaptureArguments& a, const CaptureFindings& findings)
   return ExitCode::kPassed;
 }
 
+/// The bounds, once everything was read as the runs will read it.
+std::vector<CaptureBound> checkedBounds(const CaptureArguments& a,
+                                        const ConfigNode& scenario_tree) {
+  const Study probe = captureStudy(a.request, std::max(a.up_to_N, a.request.resolution_N));
+  checkCases(probe, scenario_tree, CaptureSearch(a.request, probe, rangesOf(a, {})).next());
+  requireReleased(a.request, scenario_tree);
+  Progress progress("bound", a.quiet);
+  return captureBounds(a.request, a.bound, scenario_tree, [&](double share) {
+    if (*interruptFlag()) throw InterruptedError("interrupted; nothing was run");
+    progress.update(share, "linear programs");
+  });
+}
+
+/// How far it is, over all rounds.
+struct Expected {
+  std::size_t before = 0;  ///< runs that ended in earlier rounds
+  std::size_t left = 0;    ///< about so many since
+
+  double share(std::size_t done) const {
+    const std::size_t all = before + left;
+    return all > 0 ? static_cast<double>(before + done) / static_cast<double>(all) : 0;
+  }
+  std::string note(std::size_t done) const {
+    return fmt::format("{} of about {} runs", before + done, before + left);
+  }
+};
+
+/// Runs what the search asks for until it asks for nothing.
+void runUntilKnown(const CaptureArguments& a, const Study& study, const StudyFolder& folder,
+                   CaptureSearch& captures, StudyEngine& engine, Expected& expected) {
+  try {
+    for (auto cases = captures.next(); !cases.empty(); cases = captures.next()) {
+      expected = {engine.ranNow(), captures.casesLeft()};
+      engine.run(cases);
+      captures.take(engine);
+    }
+  } catch (const Error&) {
+    fmt::print(stderr, "\nWhat is done of {} is in {}; go on with\n  {}\n", study.name,
+               folder.path(), commandLine(resumeCommand(a, folder.path())));
+    throw;
+  }
+}
+
+void writeFindings(const CaptureArguments& a, const CaptureFindings& findings,
+                   const StudyEngine& engine, const StudyFolder& folder) {
+  writeTextFile(folder.file("capture.svg"),
+                captureFigure(a.request, a.bound, findings.edges, findings.bounds));
+  nlohmann::ordered_json summary = captureJson(findings);
+  summary["cases"] = engine.cases().size();
+  summary["failed"] = failedCases(engine);
+  summary["table_digest"] = engine.table().digest();
+  writeTextFile(folder.file("capture.json"), jsonText(summary) + "\n");
+  if (a.json) {
+    summary["study_folder"] = folder.path();
+    fmt::print("{}\n", jsonText(summary));
+    return;
+  }
+  fmt::print(
+      "{0}  {2:<16} {1}/capture.svg\n  {3:<16} {1}/table.csv, capture.json\n  {4:<16} "
+      "{1}/commands.sh\n",
+      captureText(findings), folder.path(), "picture", "all runs", "each run alone");
+  if (failedCases(engine) > 0) {
+    fmt::print("  {} of {} runs crashed, hung or ended in an error: {}/table.csv says which\n",
+               failedCases(engine), engine.cases().size(), folder.path());
+  }
+}
+
 ExitCode runCapture(CaptureArguments& a) {
   const auto started = std::chrono::steady_clock::now();
   readVariants(a);
   a.bound.blind_s = 1e-3 * a.blind_ms;
-  a.bound.per_direction = a.bound_only ? 1 : kDrawnPerDirection;
+  if (!a.bound_only) {
+    a.bound.per_direction = (kDrawnAngles + a.request.directions - 1) / a.request.directions;
+  }
   const ConfigNode scenario_tree = loadScenarioTree(a.request.scenario);
-
-  CaptureFindings findings{a.request, a.bound, {}, {}};
-  // Read as its runs will be before anything takes time.
-  {
-    const Study probe = captureStudy(a.request, std::max(a.up_to_N, a.request.resolution_N));
-    CaptureSearch at_rest(a.request, probe, rangesOf(a, {}));
-    checkCases(probe, scenario_tree, at_rest.next());
-  }
-  {
-    Progress progress("bound", a.quiet);
-    findings.bounds = captureBounds(a.request, a.bound, scenario_tree, [&](double share) {
-      if (*interruptFlag()) throw InterruptedError("interrupted; nothing was run");
-      progress.update(share, "linear programs");
-    });
-  }
+  CaptureFindings findings{a.request, a.bound, checkedBounds(a, scenario_tree), {}};
   if (a.bound_only) return printBounds(a, findings);
 
   const std::vector<double> ranges = rangesOf(a, findings.bounds);
@@ -148,58 +216,22 @@ ExitCode runCapture(CaptureArguments& a) {
   LocalLauncher launcher(scenario_tree, options);
 
   CaptureSearch captures(a.request, study, ranges);
+  Expected expected;
   Progress progress(study.name, a.quiet);
-  std::size_t before = 0, left = 0;
   StudyEngine engine(study, folder, launcher, [&](std::size_t done, std::size_t) {
-    const std::size_t all = before + left;
-    const double share =
-        all > 0 ? static_cast<double>(before + done) / static_cast<double>(all) : 1;
-    progress.update(share, fmt::format("{} of about {} runs", before + done, all));
+    progress.update(expected.share(done), expected.note(done));
   });
-  try {
-    while (true) {
-      const std::vector<StudyCase> cases = captures.next();
-      if (cases.empty()) break;
-      before = engine.ranNow();
-      left = captures.casesLeft();
-      engine.run(cases);
-      captures.take(engine);
-    }
-  } catch (const Error&) {
-    progress.finish();
-    fmt::print(stderr, "What is done is in {}; go on with\n  {}\n", folder.path(),
-               commandLine(resumeCommand(a, folder.path())));
-    throw;
-  }
+  runUntilKnown(a, study, folder, captures, engine, expected);
   progress.finish();
   findings.edges = captures.edges();
 
-  StudyFindings study_findings;
-  study_findings.boundaries = captures.boundaries();
-  study_findings.jobs = a.processes();
-  study_findings.wall_s =
+  StudyFindings of_study;
+  of_study.boundaries = captures.boundaries();
+  of_study.jobs = a.processes();
+  of_study.wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  writeStudyOutput(study, engine, folder, study_findings);
-  writeTextFile(folder.file("capture.svg"),
-                captureFigure(a.request, a.bound, findings.edges, findings.bounds));
-  nlohmann::ordered_json summary = captureJson(findings);
-  summary["cases"] = engine.cases().size();
-  summary["failed"] = failedCases(engine);
-  summary["table_digest"] = engine.table().digest();
-  writeTextFile(folder.file("capture.json"), jsonText(summary) + "\n");
-  summary["study_folder"] = folder.path();
-  if (a.json) {
-    fmt::print("{}\n", jsonText(summary));
-  } else {
-    fmt::print(
-        "{}  {:<16} {}/capture.svg\n  {:<16} {}/table.csv, capture.json\n  {:<16} {}/commands.sh\n",
-        captureText(findings), "picture", folder.path(), "all runs", folder.path(),
-        "each run alone", folder.path());
-    if (failedCases(engine) > 0) {
-      fmt::print("  {} of {} runs crashed, hung or ended in an error: {}/table.csv says which\n",
-                 failedCases(engine), engine.cases().size(), folder.path());
-    }
-  }
+  writeStudyOutput(study, engine, folder, of_study);
+  writeFindings(a, findings, engine, folder);
   return failedCases(engine) == 0 ? ExitCode::kPassed : ExitCode::kRequirementMissed;
 }
 
