@@ -26,9 +26,9 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-/// Exactly zero where it would be all but zero.
+/// Exactly zero where it would be all but zero, and without a sign.
 std::string share(double cosine_or_sine) {
-  return numberText(std::round(1e12 * cosine_or_sine) / 1e12);
+  return numberText(std::round(1e12 * cosine_or_sine) / 1e12 + 0.0);
 }
 
 std::string list(const std::vector<double>& values) {

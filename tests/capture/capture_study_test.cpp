@@ -12,7 +12,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-CaptureRequest request() {
+CaptureRequest twoVariants() {
   CaptureRequest r;
   r.scenario = BALLBOT_SOURCE_DIR "/configs/scenarios/push.yaml";
   r.variants = {{"as given", {}}, CaptureVariant::of("controller.kind=lqr; rates.base_step_us=50")};
@@ -21,7 +21,7 @@ CaptureRequest request() {
 }
 
 TEST(CaptureStudy, SetsTheForceAlongEachDirection) {
-  const CaptureRequest r = request();
+  const CaptureRequest r = twoVariants();
   const Study study = captureStudy(r, 100);
   std::vector<AxisOption> place(study.axes.size());
   for (std::size_t a = 0; a < kForceAxis; ++a) place[a] = study.axes[a].options.front();
@@ -47,7 +47,7 @@ TEST(CaptureStudy, SetsTheForceAlongEachDirection) {
 }
 
 TEST(CaptureStudy, AVariantIsOneOrMoreChanges) {
-  const CaptureRequest r = request();
+  const CaptureRequest r = twoVariants();
   EXPECT_EQ(r.variants[1].label, "controller.kind=lqr; rates.base_step_us=50");
   EXPECT_EQ(r.variants[1].overrides.size(), 2u);
   EXPECT_THROW(CaptureVariant::of(" ; "), InputError);
@@ -57,7 +57,7 @@ TEST(CaptureStudy, AVariantIsOneOrMoreChanges) {
 TEST(CaptureStudy, RefusesWhatItDecidesItself) {
   for (const char* text : {"duration_s=3", "environment.pushes=[]",
                            "environment.pushes.0.body=ball", "requirements={}", "seed=4"}) {
-    CaptureRequest all = request(), one = request();
+    CaptureRequest all = twoVariants(), one = twoVariants();
     all.overrides = {text};
     one.variants[1].overrides = {text};
     for (const CaptureRequest& r : {all, one}) {
