@@ -15,6 +15,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(LCM REQUIRED IMPORTED_TARGET lcm)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)
+pkg_check_modules(CLP REQUIRED clp)
 find_package(HDF5 REQUIRED COMPONENTS C)
 
 # Simbody's classes change layout with NDEBUG, so whatever includes it must be compiled as it was:
@@ -32,3 +33,9 @@ else()
   set(BALLBOT_SIMBODY "${Simbody_VERSION} as packaged")
   target_compile_options(ballbot_simbody INTERFACE -UNDEBUG)
 endif()
+
+# Clp's pkg-config file names all that linking it statically would take; shared it is these two.
+add_library(ballbot_clp INTERFACE)
+target_include_directories(ballbot_clp SYSTEM INTERFACE ${CLP_INCLUDE_DIRS})
+target_link_directories(ballbot_clp INTERFACE ${CLP_LIBRARY_DIRS})
+target_link_libraries(ballbot_clp INTERFACE Clp CoinUtils)

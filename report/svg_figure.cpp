@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/markup_text.hpp"
+#include "report/svg_elements.hpp"
 
 namespace ballbot {
 namespace {
@@ -15,11 +15,6 @@ namespace {
 constexpr double kLeft = 84, kPlotWidth = 620, kLegendWidth = 236, kPlotHeight = 190;
 constexpr double kTitleHeight = 40, kBelow = 58;
 constexpr int kTickCount = 6;
-// Okabe and Ito's colours, told apart by most eyes and in grey.
-constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73",
-                                    "#cc79a7", "#e69f00", "#56b4e9"};
-
-std::string number(double v) { return fmt::format("{:.2f}", v); }
 
 /// Maps values of one direction to pixels.
 class Scale {
@@ -74,23 +69,6 @@ Span spanOf(const SvgAxes& axes, bool of_x) {
   return {low - room, high + room};
 }
 
-std::string tickText(double v) {
-  const double size = std::abs(v);
-  if (v != 0 && (size >= 1e5 || size < 1e-3)) return fmt::format("{:.0e}", v);
-  return fmt::format("{:g}", v);
-}
-
-std::string lineElement(double x1, double y1, double x2, double y2, const std::string& style) {
-  return fmt::format("<line x1='{}' y1='{}' x2='{}' y2='{}' {}/>\n", number(x1), number(y1),
-                     number(x2), number(y2), style);
-}
-
-std::string textElement(double x, double y, const std::string& anchor, const std::string& text,
-                        const std::string& more = "") {
-  return fmt::format("<text x='{}' y='{}' text-anchor='{}' {}>{}</text>\n", number(x), number(y),
-                     anchor, more, markupEscaped(text));
-}
-
 std::string path(const SvgSeries& s, const Scale& sx, const Scale& sy) {
   std::string d;
   bool pen_down = false;
@@ -99,7 +77,7 @@ std::string path(const SvgSeries& s, const Scale& sx, const Scale& sy) {
       pen_down = false;
       continue;
     }
-    d += fmt::format("{}{} {}", pen_down ? "L" : "M", number(sx(s.x[i])), number(sy(s.y[i])));
+    d += fmt::format("{}{} {}", pen_down ? "L" : "M", svgNumber(sx(s.x[i])), svgNumber(sy(s.y[i])));
     pen_down = true;
   }
   return fmt::format("<path d='{}' fill='none' stroke='{}' stroke-width='1.8'{}/>\n", d,
@@ -110,9 +88,9 @@ std::string area(const SvgBand& b, const Scale& sx, const Scale& sy) {
   std::string forth, back;
   for (std::size_t i = 0; i < b.x.size(); ++i) {
     if (!sx.has(b.x[i]) || !sy.has(b.low[i]) || !sy.has(b.high[i])) continue;
-    const std::string x = number(sx(b.x[i]));
-    forth += fmt::format("{}{} {}", forth.empty() ? "M" : "L", x, number(sy(b.high[i])));
-    back = fmt::format("L{} {}", x, number(sy(b.low[i]))) + back;
+    const std::string x = svgNumber(sx(b.x[i]));
+    forth += fmt::format("{}{} {}", forth.empty() ? "M" : "L", x, svgNumber(sy(b.high[i])));
+    back = fmt::format("L{} {}", x, svgNumber(sy(b.low[i]))) + back;
   }
   if (forth.empty()) return "";
   return fmt::format("<path d='{}{}Z' fill='{}' fill-opacity='0.14'/>\n", forth, back,
@@ -139,8 +117,9 @@ std::string axesElement(const SvgAxes& axes, double top, int index) {
   for (const SvgSpan& s : axes.shaded) {
     const double from = std::clamp(sx(s.from), kLeft, right),
                  to = std::clamp(sx(s.to), kLeft, right);
-    out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' class='span'/>\n", number(from),
-                       number(top), number(std::max(0.0, to - from)), number(kPlotHeight));
+    out +=
+        fmt::format("<rect x='{}' y='{}' width='{}' height='{}' class='span'/>\n", svgNumber(from),
+                    svgNumber(top), svgNumber(std::max(0.0, to - from)), svgNumber(kPlotHeight));
   }
   if (axes.log_x) {
     for (const double v : minorTicks(x.low, x.high))
@@ -168,7 +147,8 @@ std::string axesElement(const SvgAxes& axes, double top, int index) {
   out += fmt::format(
       "<clipPath id='c{}'><rect x='{}' y='{}' width='{}' height='{}'/></clipPath>\n<g "
       "clip-path='url(#c{})'>\n",
-      index, number(kLeft), number(top), number(kPlotWidth), number(kPlotHeight), index);
+      index, svgNumber(kLeft), svgNumber(top), svgNumber(kPlotWidth), svgNumber(kPlotHeight),
+      index);
   for (const SvgMark& m : axes.at_x)
     out += lineElement(sx(m.value), top, sx(m.value), bottom, "class='mark'");
   for (const SvgMark& m : axes.at_y)
@@ -176,13 +156,14 @@ std::string axesElement(const SvgAxes& axes, double top, int index) {
   for (const SvgBand& b : axes.bands) out += area(b, sx, sy);
   for (const SvgSeries& s : axes.series) out += path(s, sx, sy);
   out += "</g>\n";
-  out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#333'/>\n",
-                     number(kLeft), number(top), number(kPlotWidth), number(kPlotHeight));
+  out +=
+      fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#333'/>\n",
+                  svgNumber(kLeft), svgNumber(top), svgNumber(kPlotWidth), svgNumber(kPlotHeight));
   out += textElement(kLeft + kPlotWidth / 2, bottom + (words > 0 ? 48 : 37), "middle", axes.x_label,
                      "class='label'");
   const double middle = top + kPlotHeight / 2;
   out += textElement(18, middle, "middle", axes.y_label,
-                     fmt::format("class='label' transform='rotate(-90 18 {})'", number(middle)));
+                     fmt::format("class='label' transform='rotate(-90 18 {})'", svgNumber(middle)));
   // Legend: one row a line, marks last.
   double row = top + 12;
   for (const SvgSeries& s : axes.series) {
@@ -236,16 +217,7 @@ std::string svgFigure(const std::string& title, const std::vector<SvgAxes>& axes
   const double width = kLeft + kPlotWidth + kLegendWidth;
   const double top = title.empty() ? 12 : kTitleHeight;
   const double height = top + static_cast<double>(axes.size()) * (kPlotHeight + kBelow);
-  std::string out = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
-      "role='img'>\n"
-      "<title>{2}</title>\n"
-      "<style>text{{font:12px system-ui,sans-serif;fill:#222}}.label{{font-size:13px}}"
-      ".title{{font-size:16px;font-weight:600}}.grid{{stroke:#ccc}}.minor{{stroke:#eee}}"
-      ".span{{fill:#fbeed2}}.mark{{stroke:#555;stroke-dasharray:2 3}}</style>\n"
-      "<rect width='{0}' height='{1}' fill='#fff'/>\n",
-      number(width), number(height), markupEscaped(title));
-  if (!title.empty()) out += textElement(kLeft, 25, "start", title, "class='title'");
+  std::string out = figureBeginning(title, width, height, kLeft);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     out += axesElement(axes[i], top + static_cast<double>(i) * (kPlotHeight + kBelow),
                        static_cast<int>(i));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace ballbot {
 
@@ -67,6 +68,31 @@ std::vector<double> BoundarySearch::next() const {
     }
   }
   return wanted;
+}
+
+/// How often what lies between two values is halved until it is narrow enough.
+int BoundarySearch::halvings(double failing, double passing) const {
+  double width = std::abs(passing - failing), enough = resolution_ * std::max(passing, failing);
+  if (range_.logarithmic) {  // halved in its logarithm; 1 + resolution apart at the end
+    width = std::abs(std::log(passing / failing));
+    enough = -std::log1p(-resolution_);
+  }
+  if (range_.whole && !range_.logarithmic) enough = std::max(enough, 1.0);
+  return width <= enough ? 0 : static_cast<int>(std::ceil(std::log2(width / enough) - 1e-9));
+}
+
+int BoundarySearch::expectedLeft() const {
+  if (stuck_) return 0;
+  int left = 0;
+  for (const double end : {range_.low, range_.high}) left += known_.count(end) == 0 ? 1 : 0;
+  if (left > 0) return left + halvings(range_.low, range_.high);
+  if (boundary().kind != Boundary::Kind::kFound) return 0;
+  std::set<std::pair<double, double>> between;  // levels that are not told apart yet share values
+  for (const Level level : {Level::kPasses, Level::kSurelyFails, Level::kSurelyPasses}) {
+    if (const auto b = bracket(level)) between.insert({b->failing, b->passing});
+  }
+  for (const auto& [failing, passing] : between) left += halvings(failing, passing);
+  return left;
 }
 
 Boundary BoundarySearch::boundary() const {

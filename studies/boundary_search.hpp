@@ -47,6 +47,8 @@ class BoundarySearch {
   /// Values whose rate is needed next; empty once the boundary is known well enough, or cannot be
   /// known because at a value that was asked for no case ran.
   std::vector<double> next() const;
+  /// About how many more values will be asked for, as far as can be seen by now; for progress.
+  int expectedLeft() const;
   void tell(double value, const RateEstimate& rate) {
     if (rate.count == 0) {
       stuck_ = true;
@@ -65,6 +67,7 @@ class BoundarySearch {
   };
   enum class Level { kSurelyFails, kPasses, kSurelyPasses };
   bool holds(Level level, const RateEstimate& rate) const;
+  int halvings(double failing, double passing) const;
   std::optional<Bracket> bracket(Level level) const;
 
   AxisRange range_;

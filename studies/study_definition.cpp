@@ -47,10 +47,14 @@ Study loadStudy(const std::string& path) {
     throw InputError(fmt::format(
         "{}: is a folder; a study is a YAML file such as configs/studies/smoke.yaml", path));
   }
+  return readStudy(loadYamlFile(path), path);
+}
+
+Study readStudy(ConfigNode tree, const std::string& source) {
   Study s;
-  s.tree = loadYamlFile(path);
+  s.tree = std::move(tree);
   if (s.tree.kind() != ConfigNode::Kind::kMap) {
-    throw InputError(fmt::format("{}: a study must be a mapping of keys to values", path));
+    throw InputError(fmt::format("{}: a study must be a mapping of keys to values", source));
   }
   ConfigReader in(s.tree);
   readDescribed(in, s);
@@ -58,11 +62,11 @@ Study loadStudy(const std::string& path) {
   std::set<std::string> names;
   for (const StudyAxis& axis : s.axes) {
     if (!names.insert(axis.name).second)
-      throw InputError(fmt::format("{}: two axes are called '{}'", path, axis.name));
+      throw InputError(fmt::format("{}: two axes are called '{}'", source, axis.name));
     if (std::count(kFixedColumns.begin(), kFixedColumns.end(), axis.name) > 0) {
       throw InputError(fmt::format(
           "{}: an axis is called '{}', as a column that every table has; give it another name",
-          path, axis.name));
+          source, axis.name));
     }
   }
   const bool sampled = s.design == StudyDesign::kLatinHypercube;
@@ -72,7 +76,7 @@ Study loadStudy(const std::string& path) {
       throw InputError(fmt::format(
           "{}: axis '{}' has a 'range', which needs 'design: latin_hypercube' or a 'search'; "
           "a grid needs 'values'",
-          path, axis.name));
+          source, axis.name));
     }
   }
   return s;

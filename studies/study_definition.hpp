@@ -113,6 +113,8 @@ struct Study {
 /// Reads a study file. docs/studies.md describes it.
 /// @throw InputError with file, line and column.
 Study loadStudy(const std::string& path);
+/// The same of what such a file says. @param source  what errors call it
+Study readStudy(ConfigNode tree, const std::string& source);
 
 /// The options of a numeric axis at given values.
 AxisOption optionAt(const StudyAxis& axis, double value);

@@ -70,6 +70,7 @@ int main(int argc, char** argv) {
   addIdentifyCommand(program, result);
   addFmuCommand(program, result);
   addStudyCommand(program, result);
+  addCaptureCommand(program, result);
   addDoctorCommand(program, result);
 
   readNumbersAsFilesDo(program);

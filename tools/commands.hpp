@@ -25,6 +25,7 @@ void addHilCommand(CLI::App& program, ExitCode& result);
 void addIdentifyCommand(CLI::App& program, ExitCode& result);
 void addFmuCommand(CLI::App& program, ExitCode& result);
 void addStudyCommand(CLI::App& program, ExitCode& result);
+void addCaptureCommand(CLI::App& program, ExitCode& result);
 void addDoctorCommand(CLI::App& program, ExitCode& result);
 
 }  // namespace ballbot

@@ -9,6 +9,8 @@
     tables.py checks                    that of `ballbot hil --checks --json`
     tables.py identified                that of `ballbot identify --seeds N --json`
     tables.py commissioning             that of `ballbot hil --commission --faults --json`
+    tables.py capture                   that of `ballbot capture --json`
+    tables.py capture_limits            the bound of `ballbot capture --bound-only` with one limit of the robot changed, a row each
 """
 import json
 import subprocess
@@ -165,6 +167,39 @@ def commissioning():
            for r in json.load(sys.stdin)["rows"]])
 
 
+def capture():
+    found = json.load(sys.stdin)
+    variants = list(dict.fromkeys(p["variant"] for p in found["pushes"]))
+    by_direction = {}
+    for p in found["pushes"]:
+        by_direction.setdefault(p["direction_deg"], {})[p["variant"]] = p
+
+    def survived(p):
+        interval = f" ({p['low_N']:g} to {p['high_N']:g})" if p.get("low_N") is not None and p.get("high_N") is not None else ""
+        return f"{p['survived_N']:g}{interval}"
+
+    measured = "survived_N" in found["pushes"][0]
+    table(["direction, degrees", *[f"{v}, N" for v in variants if measured], "bound, N", f"blind for {found['bound']['blind_ms']:g} ms, N"]
+          + (["share of the bound"] if measured else []),
+          [[f"{d:g}", *[survived(p[v]) for v in variants if measured], f"{p[variants[0]]['bound_known_N']:.1f}",
+            f"{p[variants[0]]['bound_blind_N']:.1f}"] + ([f"{100 * p[variants[0]]['share_of_bound']:.0f} %"] if measured else [])
+           for d, p in by_direction.items()])
+
+
+def capture_limits(scenario):
+    rows = []
+    for name, changes in [("the shipped robot: 4 N m and 12 rad/s at a wheel", []),
+                          ("a wheel's torque 6 N m", ["robot.wheel_torque_limit_Nm=6"]),
+                          ("8.4 rad/s, as the MPC plans", ["robot.actuators.wheel.speed_limit_rad_per_s=8.4"]),
+                          ("drives of any speed", ["plant.fidelity.speed_limit=false"])]:
+        run = subprocess.run(["ballbot", "capture", f"configs/scenarios/{scenario}.yaml", "--bound-only", "--quiet", "--json",
+                              "--directions", "4", *[w for c in changes for w in ("--set", c)]],
+                             stdout=subprocess.PIPE, text=True, check=True)
+        by_direction = {p["direction_deg"]: p for p in json.loads(run.stdout)["pushes"]}
+        rows.append([name, *[f"{by_direction[d][b]:.1f}" for b in ("bound_known_N", "bound_blind_N") for d in (0, 90)]])
+    table(["with", "along x, N", "along y, N", "blind for 60 ms: along x", "along y"], rows)
+
+
 if __name__ == "__main__":
     {"messages": messages, "rejected": rejected, "estimation": estimation, "seeds": seeds, "faults": faults, "budgets": budgets, "checks": checks,
-     "identified": identified, "commissioning": commissioning}[sys.argv[1]](*sys.argv[2:])
+     "identified": identified, "commissioning": commissioning, "capture": capture, "capture_limits": capture_limits}[sys.argv[1]](*sys.argv[2:])

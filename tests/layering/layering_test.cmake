@@ -14,7 +14,8 @@ set(may_experiment core model cosim plant estimator controller metrics report fm
 set(may_hil core model cosim plant report)
 set(may_fmi core model cosim plant)
 set(may_studies core experiment report)
-set(may_tools core model messages cosim metrics report experiment hil fmi studies)
+set(may_capture core model controller experiment studies report)
+set(may_tools core model messages cosim metrics report experiment hil fmi studies capture)
 set(may_examples solver)
 
 # The plant's face to the co-simulation is the one file of plant/ that knows cosim.
@@ -36,7 +37,7 @@ set(never_solver ${core_headers})
 set(carriers_of_frames hil/bench_clock.hpp hil/can_frame.hpp hil/can_bus.hpp hil/serial_port.hpp)
 
 # A library behind one door: who may include its headers.
-set(door_names simbody yaml xml lcm httplib zip)
+set(door_names simbody yaml xml lcm httplib zip clp)
 set(door_simbody_headers "Simbody.h|SimTKcommon|simbody/")
 set(door_simbody_folders plant)
 set(door_yaml_headers "yaml-cpp/")
@@ -49,6 +50,8 @@ set(door_lcm_headers "lcm/")
 set(door_lcm_folders messages)
 set(door_zip_headers "zip.h")
 set(door_zip_folders fmi)
+set(door_clp_headers "Clp|Coin")
+set(door_clp_folders capture)
 
 set(wrong 0)
 file(GLOB files RELATIVE ${SOURCE_DIR} ${SOURCE_DIR}/*/*.hpp ${SOURCE_DIR}/*/*.cpp ${SOURCE_DIR}/*/*/*.hpp
@@ -93,7 +96,7 @@ foreach(file ${files})
   endforeach()
 endforeach()
 # What is allowed and not used is no rule, only a hole.
-foreach(folder core model messages cosim plant estimator solver controller metrics report experiment hil fmi studies tools examples)
+foreach(folder core model messages cosim plant estimator solver controller metrics report experiment hil fmi studies capture tools examples)
   foreach(target ${may_${folder}})
     if(seen GREATER 0 AND NOT used_${folder}_${target})
       message(SEND_ERROR "${folder}/ may include ${target}/ and does not: take it off its list here.")

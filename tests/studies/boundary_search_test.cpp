@@ -143,5 +143,20 @@ TEST(BoundaryInAGrid, LiesBetweenTheValuesWhereTheRateCrosses) {
   EXPECT_EQ(*b.high, 40);
 }
 
+TEST(BoundarySearch, SaysAboutHowMuchIsLeft) {
+  BoundarySearch search({0, 64, false, true}, 0.5, 1e-6);
+  EXPECT_EQ(search.expectedLeft(), 2 + 6) << "two ends, then 64 is halved six times";
+  int left = search.expectedLeft();
+  for (auto wanted = search.next(); !wanted.empty(); wanted = search.next()) {
+    for (const double value : wanted) search.tell(value, wilsonInterval(value < 40 ? 3 : 0, 3));
+    left -= static_cast<int>(wanted.size());
+    EXPECT_EQ(search.expectedLeft(), left);
+  }
+  EXPECT_EQ(left, 0);
+  BoundarySearch nothing({0, 64, false, true}, 0.5, 1e-6);
+  for (const double end : nothing.next()) nothing.tell(end, wilsonInterval(3, 3));
+  EXPECT_EQ(nothing.expectedLeft(), 0) << "passes everywhere";
+}
+
 }  // namespace
 }  // namespace ballbot
