@@ -96,6 +96,7 @@ void LoopPlant::askDrives() {
       TorqueDrive::visitState(drive, save);
     }
   }
+  if (!config_.leak_compensation) slow_velocity_.setZero();  // kept, but of no consequence
 }
 
 LoopPlant::Flight LoopPlant::flightOver(SimDuration time) const {
