@@ -102,7 +102,9 @@ void LoopPlant::askDrives() {
 LoopPlant::Flight LoopPlant::flightOver(SimDuration time) const {
   Whole M = Whole::Zero(kFlightDim + kJointCount, kFlightDim + kJointCount);
   M.topRows<kFlightDim>() = rates_;
-  return exponential(toSeconds(time) * M).topRows<kFlightDim>();
+  Flight flight = exponential(toSeconds(time) * M).topRows<kFlightDim>();
+  if (!elastic_) flight.bottomRows<kFlightDim - kDeflection>().setZero();  // there are none
+  return flight;
 }
 
 void LoopPlant::fly(const Flight& flight, StateRef z) {

@@ -13,6 +13,8 @@
 namespace ballbot {
 namespace {
 
+constexpr SimDuration kLeastTime = std::chrono::milliseconds(50);
+
 /// Behind the plant's state. Of the base there are place (2), angles (3), velocity (2), angular
 /// velocity (3) and the ball's acceleration (2).
 enum LoopIndex : int {
@@ -132,7 +134,8 @@ void SampledLoop::plan(const LoopEvent& event, State z) const {
   PlanStartVector start;
   start << estimate(event, z), z.segment<kFilterDim>(kFilterState),
       plant_.jointAngle(z.head<LoopPlant::kDim>());
-  z.segment<kPlanStartDim>(event.at_once ? kActiveStart : kPendingStart) = start;
+  z.segment<kPlanStartDim>(kPendingStart) = start;
+  if (event.at_once) z.segment<kPlanStartDim>(kActiveStart) = start;
 }
 
 void SampledLoop::track(const LoopEvent& event, const LinearCommand& law, State z) const {
@@ -185,12 +188,15 @@ void SampledLoop::advance(const LoopProbe& probe, State z) const {
   for (std::size_t n = 0; n < schedule_.events.size(); ++n) pass(n, probe, z);
 }
 
-double SampledLoop::radius(const LoopProbe& probe) const {
-  return spectralRadius([&](Eigen::VectorXd& z) { advance(probe, z); }, dim(probe));
-}
-
 double SampledLoop::growthRate(const LoopProbe& probe) const {
-  return std::log(radius(probe)) / toSeconds(schedule_.period);
+  // Over a period of a tick all eigenvalues are next to 1, where an iteration cannot tell them
+  // apart.
+  const auto periods = 1 + (kLeastTime - SimDuration(1)) / schedule_.period;
+  const auto map = [&](Eigen::VectorXd& z) {
+    for (std::int64_t i = 0; i < periods; ++i) advance(probe, z);
+  };
+  const double radius = spectralRadius(map, dim(probe));
+  return std::log(radius) / (static_cast<double>(periods) * toSeconds(schedule_.period));
 }
 
 }  // namespace ballbot

@@ -40,9 +40,8 @@ class SampledLoop {
   /// The same over the whole period.
   void advance(const LoopProbe& probe, Eigen::Ref<Eigen::VectorXd> z) const;
 
-  /// By what factor a disturbance grows at last over one period.
-  double radius(const LoopProbe& probe) const;
-  /// The same as a rate [1/s].
+  /// At what rate a disturbance grows at last, or dies where it is negative: from the spectral
+  /// radius of the map over one period [1/s].
   double growthRate(const LoopProbe& probe) const;
 
   /// The robot's state (q, nu), the first elements of a state.

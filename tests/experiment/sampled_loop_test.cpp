@@ -151,13 +151,15 @@ INSTANTIATE_TEST_SUITE_P(SampledLoop, SmallSignal,
                                            "controller.tracker.policy_feedback=0",
                                            "controller.kind=lqr"));
 
-TEST(SampledLoop, ItsRadiusIsThatOfItsMatrix) {
+TEST(SampledLoop, GrowsAsTheEigenvaluesOfItsMatrixSay) {
   const SampledLoop loop(balance({}), kSimStart);
   const LoopProbe probe{1.5, 20, 3};
   const int n = loop.dim(probe);
   Eigen::MatrixXd M = Eigen::MatrixXd::Identity(n, n);
   for (int i = 0; i < n; ++i) loop.advance(probe, M.col(i));
-  EXPECT_NEAR(loop.radius(probe), eigenvaluesOf(M).cwiseAbs().maxCoeff(), 1e-6);
+  const double period = toSeconds(loop.schedule().period);
+  EXPECT_NEAR(loop.growthRate(probe), std::log(eigenvaluesOf(M).cwiseAbs().maxCoeff()) / period,
+              1e-5);
 }
 
 TEST(SampledLoop, AProbeIsWhatTheScenarioCanInsertItself) {
