@@ -166,10 +166,14 @@ LAWS = {"MPC": "controller.kind=mpc", "MPC, paper's tracker": "controller.tracke
 # Where a small disturbance of the whole robot began to grow: sensors perfect, no friction. Delay of all six torques and of the
 # wheels' [ms], gain at the wheels; bisected to a hundredth, of the gain to two.
 ROBOT_GROWS = {
-    ("MPC", 40): (None, 86.7, 0.513, 16.0),
+    ("MPC", 40): (15.0, 86.7, 0.513, 16.0),
     ("MPC, paper's tracker", 40): (28.4, 78.0, 0.583, 5.55),
     ("LQR", 40): (23.1, 88.5, 0.479, 11.3),
     ("MPC", 20): (18.7, 95.2, 0.590, 13.2),
+    ("MPC, paper's tracker", 20): (38.8, 83.8, 0.673, 5.75),
+    ("LQR", 20): (30.9, 97.1, 0.554, 11.7),
+    ("MPC", 10): (41.6, 71.4, 0.890, 14.6),
+    ("LQR", 10): (55.8, 88.2, 0.824, 13.4),
 }
 
 
