@@ -17,6 +17,11 @@ class DecoupledSettings final : public MpcSettings {
   std::unique_ptr<ControlLaw> makeLaw() const override {
     return std::make_unique<DecoupledLaw>(robot(), config(), decoupled_);
   }
+  std::unique_ptr<ControlLaw> makeLawAtRest(SimTime) const override { return makeLaw(); }
+  /// Its arm minimises nothing, and integrates what no analysis of a loop knows of.
+  std::optional<QuadraticCost> costAt(SimTime, const Vector3&) const override {
+    return std::nullopt;
+  }
 
  private:
   DecoupledConfig decoupled_;

@@ -31,6 +31,12 @@ class LawSettings {
 
   /// @throw NumericalError if no such law balances this robot.
   virtual std::unique_ptr<ControlLaw> makeLaw() const = 0;
+  /// The law as it would be at time `at` for good, asked to stand where the robot is at rest with
+  /// its arm in the nominal pose, and solved where plan() is called: what can be differentiated.
+  virtual std::unique_ptr<ControlLaw> makeLawAtRest(SimTime at) const {
+    (void)at;
+    return makeLaw();
+  }
 
   virtual std::shared_ptr<const MotionReference> reference() const {
     return std::make_shared<MotionReference>();

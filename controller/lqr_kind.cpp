@@ -12,6 +12,11 @@ class LqrSettings final : public LawSettings {
   std::unique_ptr<ControlLaw> makeLaw() const override {
     return std::make_unique<LqrLaw>(robot(), config_);
   }
+  std::unique_ptr<ControlLaw> makeLawAtRest(SimTime) const override {
+    LqrLawConfig resting = config_;
+    resting.set_point = LqrLawConfig::defaults(robot()).set_point;
+    return std::make_unique<LqrLaw>(robot(), resting);
+  }
   std::optional<QuadraticCost> costAt(SimTime, const Vector3&) const override {
     QuadraticCost cost{config_.weights.stateWeight(), config_.weights.torqueWeight(), {}};
     cost.shaping.pole = cost.shaping.zero;

@@ -7,6 +7,7 @@
 #include "controller/background_mpc_law.hpp"
 #include "controller/law_kinds.hpp"
 #include "controller/mpc_law.hpp"
+#include "controller/resting_schedule.hpp"
 #include "controller/shaped_lqr.hpp"
 #include "controller/task_reference.hpp"
 #include "core/error.hpp"
@@ -34,6 +35,13 @@ MpcSettings::MpcSettings(ConfigReader& controller, const RobotParameters& robot)
 std::unique_ptr<ControlLaw> MpcSettings::makeLaw() const {
   if (config_.solver_thread) return std::make_unique<BackgroundMpcLaw>(robot(), config_);
   return std::make_unique<MpcLaw>(robot(), config_);
+}
+
+std::unique_ptr<ControlLaw> MpcSettings::makeLawAtRest(SimTime at) const {
+  MpcConfig resting = config_;
+  resting.schedule = std::make_shared<const TaskSchedule>(
+      restingSchedule(robot(), *config_.schedule, toSeconds(at)));
+  return std::make_unique<MpcLaw>(robot(), resting);
 }
 
 std::shared_ptr<const MotionReference> MpcSettings::reference() const {

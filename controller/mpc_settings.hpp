@@ -17,6 +17,7 @@ class MpcSettings : public LawSettings {
   MpcSettings(ConfigReader& controller, const RobotParameters& robot);
 
   std::unique_ptr<ControlLaw> makeLaw() const override;
+  std::unique_ptr<ControlLaw> makeLawAtRest(SimTime at) const override;
   std::shared_ptr<const MotionReference> reference() const override;
   Constraints limits() const override { return config_.constraints; }
   std::optional<QuadraticCost> costAt(SimTime at, const Vector3& arm) const override;

@@ -16,8 +16,10 @@ struct LoopDrives {
       0;  ///< tick of the torque loops, adds half of it to the current loop's lag [s]
 };
 
-/// The control loop about an equilibrium, opened at the torques: linear dynamics, drives, delay,
-/// law and shaping filters. Signs are those of negative feedback: the loop closes with -1.
+/// The control loop about an equilibrium in continuous time, opened at the torques: linear
+/// dynamics, drives, delay, law and shaping filters. Signs are those of negative feedback: the loop
+/// closes with -1. A picture of the loop that runs, which is sampled: its margins are
+/// SampledLoop's.
 class TorqueLoop {
  public:
   using Wheels = Eigen::Matrix<std::complex<double>, kWheelCount, kWheelCount>;
@@ -45,23 +47,12 @@ class TorqueLoop {
 /// Frequencies at which loops are looked at: from 0.05 to 500 Hz, evenly spaced on a log scale.
 std::vector<double> loopFrequencies();
 
-struct LoopMargins {
-  bool stable = false;
-  double crossover = 0;     ///< highest frequency at which a wheel loop's gain is 1 [rad/s]
-  double distance = 0;      ///< smallest singular value of 1 + L at the wheels, over frequency
-  double distance_at = 0;   ///< where [rad/s]
-  double delay_margin = 0;  ///< delay of all six torques beyond the loop's own that makes it
-                            ///< unstable [s]; negative if it is; infinite if none does
-
-  // At the wheel torques alone, the arm's loops closed; only of a stable loop.
-  double wheel_delay_margin = 0;  ///< the same for delay there [s]
-  double wheel_gain_low = 1;      ///< factors there between which the loop stays stable; 0 and
-  double wheel_gain_high = 1;     ///< infinity where there is no limit
+/// A loop in the frequency domain, in three numbers.
+struct LoopShape {
+  double crossover = 0;    ///< highest frequency at which a wheel loop's gain is 1 [rad/s]
+  double distance = 0;     ///< smallest singular value of 1 + L at the wheels, over frequency
+  double distance_at = 0;  ///< where [rad/s]
 };
-
-/// How far a loop is from instability. Stability follows from the poles without the delay and
-/// from the first delay at which a pole reaches the imaginary axis: no approximation of the delay.
-LoopMargins marginsOf(const ShapedLqr& law, const ReducedDynamics& dynamics,
-                      const std::optional<LoopDrives>& drives, double delay);
+LoopShape shapeOf(const TorqueLoop& loop);
 
 }  // namespace ballbot

@@ -13,6 +13,7 @@ class ComplementaryEstimator final : public EstimatorSettings {
   std::unique_ptr<Estimator> make(const RobotParameters& robot) const override {
     return std::make_unique<ComplementaryObserver>(robot, settings_);
   }
+  double armRateTimeConstant() const override { return settings_.arm_rate_time_constant_s; }
 
  private:
   ComplementarySettings settings_;
@@ -26,6 +27,7 @@ class TwoStateEstimator final : public EstimatorSettings {
     return std::make_unique<TwoStateFilter>(robot, settings_);
   }
   bool usesExternalPose() const override { return settings_.use_external_pose; }
+  double armRateTimeConstant() const override { return settings_.arm_rate_time_constant_s; }
 
  private:
   TwoStateSettings settings_;

@@ -20,6 +20,8 @@ class EstimatorSettings {
   /// It is told the pose from outside: its estimates are meant in W, not from where the robot was
   /// put down.
   virtual bool usesExternalPose() const { return false; }
+  /// Of the low pass through which the arm's rates come, 0 for none; for analysis of loops [s].
+  virtual double armRateTimeConstant() const { return 0; }
 };
 
 /// An estimator as a scenario chooses it: `estimator.kind: NAME`.

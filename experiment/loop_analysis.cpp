@@ -42,11 +42,14 @@ LoopAnalysis analyseLoop(const RunConfig& config, SimTime at,
                     : delayOf(config.scenario, plant, config.controller.tracker.policy_feedback);
   out.law = designShapedLqr(dynamics, robot.nominal_arm, cost->Q, cost->R, cost->shaping);
   out.inertia = freeInertia(dynamics, out.law.equilibrium.x.head<kPositionDim>());
-  out.with_ideal_drives = marginsOf(out.law, dynamics, std::nullopt, out.delay);
-  out.with_drives = marginsOf(out.law, dynamics, out.drives, out.delay);
+  const SampledLoop sampled(config, at);
+  out.margins = marginsOf(sampled);
+  out.period = sampled.schedule().period;
 
   const TorqueLoop ideal(out.law, dynamics, std::nullopt, out.delay);
   const TorqueLoop driven(out.law, dynamics, out.drives, out.delay);
+  out.with_ideal_drives = shapeOf(ideal);
+  out.with_drives = shapeOf(driven);
   const ActuatorResponse wheel(plant.actuators.wheel, out.drives.drive_period);
   const ActuatorResponse arm(plant.actuators.arm, out.drives.drive_period);
   const auto gain = [](const TorqueLoop::Wheels& L) {

@@ -26,15 +26,22 @@ struct BodeArguments {
   bool json = false;
 };
 
-nlohmann::ordered_json marginsJson(const LoopMargins& m) {
+nlohmann::ordered_json shapeJson(const LoopShape& shape) {
+  return {{"crossover_rad_per_s", shape.crossover},
+          {"crossover_Hz", inHertz(shape.crossover)},
+          {"smallest_distance_to_instability", shape.distance},
+          {"smallest_distance_at_Hz", inHertz(shape.distance_at)}};
+}
+
+/// What has no limit is left out.
+nlohmann::ordered_json marginsJson(const LoopAnalysis& a) {
+  const SampledMargins& m = a.margins;
   nlohmann::ordered_json j;
   j["stable"] = m.stable;
-  j["crossover_rad_per_s"] = m.crossover;
-  j["crossover_Hz"] = inHertz(m.crossover);
-  j["smallest_distance_to_instability"] = m.distance;
-  j["smallest_distance_at_Hz"] = inHertz(m.distance_at);
-  if (std::isfinite(m.delay_margin)) j["delay_margin_ms"] = 1e3 * m.delay_margin;
+  j["growth_rate_per_s"] = m.growth_rate;
+  j["repeats_after_ms"] = 1e3 * toSeconds(a.period);
   if (!m.stable) return j;
+  if (std::isfinite(m.delay_margin)) j["delay_margin_ms"] = 1e3 * m.delay_margin;
   if (std::isfinite(m.wheel_delay_margin)) j["wheel_delay_margin_ms"] = 1e3 * m.wheel_delay_margin;
   j["wheel_gain_margin_low"] = m.wheel_gain_low;
   if (std::isfinite(m.wheel_gain_high)) j["wheel_gain_margin_high"] = m.wheel_gain_high;
@@ -57,9 +64,10 @@ nlohmann::ordered_json toJson(const Scenario& scenario, const LoopAnalysis& a) {
         {"load_inertia_kgm2", a.inertia[joint]},
         {"loaded_gain_at_1_Hz", std::abs(response.loaded(kTwoPi, a.inertia[joint]))}};
   }
-  j["delay_ms"] = 1e3 * a.delay;
-  j["loop_at_the_wheels"] = {{"ideal_drives", marginsJson(a.with_ideal_drives)},
-                             {"series_elastic_drives", marginsJson(a.with_drives)}};
+  j["margins"] = marginsJson(a);
+  j["continuous_loop_at_the_wheels"] = {{"delay_ms", 1e3 * a.delay},
+                                        {"ideal_drives", shapeJson(a.with_ideal_drives)},
+                                        {"series_elastic_drives", shapeJson(a.with_drives)}};
   return j;
 }
 
@@ -83,15 +91,27 @@ std::string milliseconds(double seconds) {
   return std::isfinite(seconds) ? fmt::format("{:.1f}", 1e3 * seconds) : "none";
 }
 
-std::string marginsRow(const char* name, const LoopMargins& m) {
-  const std::string gains =
+std::string shapeRow(const char* name, const LoopShape& shape) {
+  return fmt::format("  {:<29} {:>10.1f} {:>10.2f} {:>14.2f}\n", name, shape.crossover,
+                     inHertz(shape.crossover), shape.distance);
+}
+
+std::string marginsText(const LoopAnalysis& a) {
+  const SampledMargins& m = a.margins;
+  std::string out = fmt::format(
+      "  the loop that runs, sampled; all of it comes again after {:g} ms\n"
+      "    stable: {}, {} at {:.3g} per second\n",
+      1e3 * toSeconds(a.period), m.stable ? "yes" : "NO",
+      m.stable ? "what dies last dies" : "a disturbance grows", std::abs(m.growth_rate));
+  if (!m.stable) return out;
+  const std::string most =
       std::isfinite(m.wheel_gain_high)
           ? fmt::format("{:.2g} to {:.3g}", m.wheel_gain_low, m.wheel_gain_high)
           : fmt::format("from {:.2g}", m.wheel_gain_low);
-  return fmt::format("  {:<22} {:>8} {:>10.1f} {:>10.2f} {:>14.2f} {:>10} {:>10} {:>14}\n", name,
-                     m.stable ? "yes" : "NO", m.crossover, inHertz(m.crossover), m.distance,
-                     milliseconds(m.delay_margin),
-                     m.stable ? milliseconds(m.wheel_delay_margin) : "", m.stable ? gains : "");
+  return out + fmt::format(
+                   "    delay margin, ms: {} of all six torques, {} of the wheels' alone\n"
+                   "    gain margins at the wheels: {}\n",
+                   milliseconds(m.delay_margin), milliseconds(m.wheel_delay_margin), most);
 }
 
 std::string tableText(const Scenario& scenario, const LoopAnalysis& a) {
@@ -119,14 +139,13 @@ std::string tableText(const Scenario& scenario, const LoopAnalysis& a) {
   out += fmt::format(
       "\n  drive bandwidth at a wheel, blocked: {:.1f} Hz (wanted {:g}); load {:.3f} kg m^2\n",
       inHertz(wheel.bandwidth()), a.drives.actuators.wheel.torque_bandwidth, a.inertia[0]);
-  out += fmt::format("  delay of the torques in the loop: {:.2f} ms\n\n", 1e3 * a.delay);
-  out +=
-      fmt::format("  {:<22} {:>8} {:>10} {:>10} {:>14} {:>21} {:>14}\n", "loop at the wheels",
-                  "stable", "crossover", "", "smallest |1+L|", "delay margin, ms", "gain margins");
-  out += fmt::format("  {:<22} {:>8} {:>10} {:>10} {:>14} {:>10} {:>10} {:>14}\n", "", "", "rad/s",
-                     "Hz", "", "all six", "wheels", "wheels");
-  out += marginsRow("ideal drives", a.with_ideal_drives);
-  out += marginsRow("series elastic drives", a.with_drives);
+  out += fmt::format("\n{}\n", marginsText(a));
+  out += fmt::format("  {:<29} {:>10} {:>10} {:>14}\n", "continuous loop at the wheels",
+                     "crossover", "", "smallest |1+L|");
+  out += fmt::format("  {:<29} {:>10} {:>10} {:>14}\n",
+                     fmt::format("with a delay of {:.2f} ms", 1e3 * a.delay), "rad/s", "Hz", "");
+  out += shapeRow("ideal drives", a.with_ideal_drives);
+  out += shapeRow("series elastic drives", a.with_drives);
   return out;
 }
 
@@ -150,9 +169,10 @@ ExitCode bode(const BodeArguments& arguments) {
 }  // namespace
 
 void addBodeCommand(CLI::App& program, ExitCode& result) {
-  CLI::App* command = program.add_subcommand(
-      "bode",
-      "Show shaping filter, actuator response and loop crossover of a scenario's balancing law");
+  CLI::App* command = program.add_subcommand("bode",
+                                             "Show how much delay and gain the balancing loop of a "
+                                             "scenario can take, and in the frequency "
+                                             "domain its shaping filter, actuators and crossover");
   const auto a = std::make_shared<BodeArguments>();
   command->add_option("scenario", a->scenario, "Scenario file")->required();
   command
@@ -165,8 +185,9 @@ void addBodeCommand(CLI::App& program, ExitCode& result) {
       ->check(CLI::Range(0.0, 1e5))
       ->capture_default_str();
   command
-      ->add_option("--delay-ms", a->delay_ms,
-                   "Delay of the torques in the loop instead of the scenario's [ms]")
+      ->add_option(
+          "--delay-ms", a->delay_ms,
+          "Delay of the continuous loop, which the curves show, instead of the scenario's [ms]")
       ->check(CLI::Range(0.0, 1000.0));
   command->add_option("--csv", a->csv, "File for all curves as CSV");
   command->add_option("--out", a->out, "File for the picture (SVG)");
@@ -176,7 +197,11 @@ void addBodeCommand(CLI::App& program, ExitCode& result) {
       "  ballbot bode configs/scenarios/balance.yaml --out bode.svg\n"
       "  ballbot bode configs/scenarios/push.yaml --set "
       "controller.mpc.wheel_shaping={actuator_bandwidth_Hz: 10}\n"
-      "docs/theory/loop.md says how the numbers are made.\n"
+      "Margins are those of the loop that runs: sampled, with its rates, latency, plans and "
+      "drives.\n"
+      "Curves and crossover are those of a loop in continuous time with the law of an infinite "
+      "horizon.\n"
+      "docs/theory/loop.md says how both are made.\n"
       "Exit codes: 0 written, 2 bad input, 4 output could not be written.");
   command->callback([&result, a] { result = bode(*a); });
 }

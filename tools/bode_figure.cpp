@@ -72,11 +72,12 @@ std::string bodeFigure(const std::string& scenario_name, const LoopAnalysis& a) 
       curve("series elastic drives", 1, false, a,
             [=](const Sample& s) { return near(s.distance); })};
   distance.at_y = {{fmt::format("smallest {:.2f}{}", a.with_drives.distance,
-                                a.with_drives.stable ? "" : ", UNSTABLE"),
+                                a.margins.stable ? "" : ", UNSTABLE"),
                     a.with_drives.distance}};
-  return svgFigure(fmt::format("{}: from the cost's weight to the loop, delay {:.2f} ms",
-                               scenario_name, 1e3 * a.delay),
-                   {weight, gain, angle, loop, distance});
+  return svgFigure(
+      fmt::format("{}: from the cost's weight to the loop in continuous time, delay {:.2f} ms",
+                  scenario_name, 1e3 * a.delay),
+      {weight, gain, angle, loop, distance});
 }
 
 }  // namespace ballbot

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "controller/lqr.hpp"
+#include "tests/controller/support/continuous_margins.hpp"
 #include "tests/model/robot_fixture.hpp"
 #include "tests/solver/support/eigenvalues.hpp"
 
@@ -96,11 +97,11 @@ TEST(TorqueLoop, FastDrivesAreNoDrives) {
   }
 }
 
-TEST(LoopMargins, AtTheDelayMarginALocusPassesThroughMinusOne) {
+TEST(ContinuousMargins, AtTheDelayMarginALocusPassesThroughMinusOne) {
   const Loop loop;
   const ShapedLqr law = loop.law({100, 200});
   const double delay = 2e-3;
-  const LoopMargins margins = marginsOf(law, loop.dynamics, drives(40), delay);
+  const ContinuousMargins margins = continuousMargins(law, loop.dynamics, drives(40), delay);
   ASSERT_TRUE(margins.stable);
   ASSERT_TRUE(std::isfinite(margins.delay_margin));
   const auto closest = [&](double total_delay) {
@@ -115,15 +116,16 @@ TEST(LoopMargins, AtTheDelayMarginALocusPassesThroughMinusOne) {
   EXPECT_LT(closest(delay + margins.delay_margin),
             0.1 * closest(delay + 0.5 * margins.delay_margin));
   EXPECT_FALSE(
-      marginsOf(law, loop.dynamics, drives(40), delay + 1.01 * margins.delay_margin).stable);
-  EXPECT_TRUE(
-      marginsOf(law, loop.dynamics, drives(40), delay + 0.99 * margins.delay_margin).stable);
+      continuousMargins(law, loop.dynamics, drives(40), delay + 1.01 * margins.delay_margin)
+          .stable);
+  EXPECT_TRUE(continuousMargins(law, loop.dynamics, drives(40), delay + 0.99 * margins.delay_margin)
+                  .stable);
 }
 
-TEST(LoopMargins, AtTheWheelsMarginsALocusPassesThroughMinusOne) {
+TEST(ContinuousMargins, AtTheWheelsMarginsALocusPassesThroughMinusOne) {
   const Loop loop;
   const ShapedLqr law = loop.law({100, 200});
-  const LoopMargins margins = marginsOf(law, loop.dynamics, drives(20), 2e-3);
+  const ContinuousMargins margins = continuousMargins(law, loop.dynamics, drives(20), 2e-3);
   ASSERT_TRUE(margins.stable);
   ASSERT_TRUE(std::isfinite(margins.wheel_delay_margin));
   ASSERT_TRUE(std::isfinite(margins.wheel_gain_high));
@@ -154,26 +156,26 @@ TEST(LoopMargins, AtTheWheelsMarginsALocusPassesThroughMinusOne) {
   }
 }
 
-TEST(LoopMargins, CrossoverIsWhereTheGainIsOne) {
+TEST(LoopShape, CrossoverIsWhereTheGainIsOne) {
   const Loop loop;
-  const ShapedLqr law = loop.law(kNone);
-  const LoopMargins margins = marginsOf(law, loop.dynamics, std::nullopt, 0);
-  const TorqueLoop L(law, loop.dynamics, std::nullopt, 0);
-  EXPECT_NEAR(complexEigenvaluesOf(L.wheels(margins.crossover)).cwiseAbs().maxCoeff(), 1, 1e-6);
-  EXPECT_GT(margins.crossover, 2 * 5.2);  // twice the fastest unstable pole
+  const TorqueLoop L(loop.law(kNone), loop.dynamics, std::nullopt, 0);
+  const LoopShape shape = shapeOf(L);
+  EXPECT_NEAR(complexEigenvaluesOf(L.wheels(shape.crossover)).cwiseAbs().maxCoeff(), 1, 1e-6);
+  EXPECT_GT(shape.crossover, 2 * 5.2);  // twice the fastest unstable pole
 }
 
 // Measured elsewhere with the same dynamics: shaping pays for aggressive weights behind slow
 // drives.
-TEST(LoopMargins, ShapingKeepsAnAggressiveLoopBehindSlowDrivesAwayFromInstability) {
+TEST(LoopShape, ShapingKeepsAnAggressiveLoopBehindSlowDrivesAwayFromInstability) {
   Loop loop;
   loop.weights.wheel_torque = 0.02;
   const LoopDrives slow = drives(20);
-  const LoopMargins plain = marginsOf(loop.law(kNone), loop.dynamics, slow, 5e-3);
-  const LoopMargins shaped = marginsOf(loop.law({16, 314}), loop.dynamics, slow, 5e-3);
+  const ShapedLqr shaped_law = loop.law({16, 314});
+  const LoopShape plain = shapeOf(TorqueLoop(loop.law(kNone), loop.dynamics, slow, 5e-3));
+  const LoopShape shaped = shapeOf(TorqueLoop(shaped_law, loop.dynamics, slow, 5e-3));
   EXPECT_LT(plain.distance, 0.5 * shaped.distance);
   EXPECT_LT(shaped.crossover, plain.crossover);
-  EXPECT_TRUE(shaped.stable);
+  EXPECT_TRUE(continuousMargins(shaped_law, loop.dynamics, slow, 5e-3).stable);
 }
 
 TEST(StateWeightOfTasks, HasTheTasksWeightsOnTheirCoordinates) {

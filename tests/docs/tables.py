@@ -8,6 +8,7 @@
     tables.py budgets                   how full the buses of a bench are, classic and CAN FD, by `ballbot hil --budget`
     tables.py checks                    that of `ballbot hil --checks --json`
     tables.py identified                that of `ballbot identify --seeds N --json`
+    tables.py margins                   how much a loop can take by `ballbot bode`, and what the robot took when it was measured
     tables.py commissioning             that of `ballbot hil --commission --faults --json`
     tables.py capture                   that of `ballbot capture --json`
     tables.py capture_limits            the bound of `ballbot capture --bound-only` with one limit of the robot changed, a row each
@@ -161,6 +162,49 @@ def identified():
     )
 
 
+LAWS = {"MPC": "controller.kind=mpc", "MPC, paper's tracker": "controller.tracker.policy_feedback=0",
+        "LQR": "controller.kind=lqr"}
+
+# Where a small disturbance of the whole robot began to grow: sensors perfect, no friction. Delay of all six torques and of the
+# wheels' [ms], gain at the wheels; bisected to a hundredth, of the gain to two.
+ROBOT_GROWS = {
+    ("MPC", 40): (15.0, 86.7, 0.513, 16.0),
+    ("MPC, paper's tracker", 40): (28.4, 78.0, 0.583, 5.55),
+    ("LQR", 40): (23.1, 88.5, 0.479, 11.3),
+    ("MPC", 20): (18.7, 95.2, 0.590, 13.2),
+    ("MPC, paper's tracker", 20): (38.8, 83.8, 0.673, 5.75),
+    ("LQR", 20): (30.9, 97.1, 0.554, 11.7),
+    ("MPC", 10): (41.6, 71.4, 0.890, 14.6),
+    ("LQR", 10): (55.8, 88.2, 0.824, 13.4),
+}
+
+
+def marginsOf(law, bandwidth_Hz, more=()):
+    run = subprocess.run(["ballbot", "bode", "configs/scenarios/balance.yaml", "--json", "--set", LAWS[law],
+                          *[word for joint in ("wheel", "arm")
+                            for word in ("--set", f"robot.actuators.{joint}.torque_bandwidth_Hz={bandwidth_Hz}")],
+                          *[word for setting in more for word in ("--set", setting)]],
+                         stdout=subprocess.PIPE, text=True, check=True)
+    return json.loads(run.stdout)["margins"]
+
+
+def margins():
+    rows = []
+    for bandwidth_Hz in (40, 20, 10):
+        for law in LAWS:
+            found = marginsOf(law, bandwidth_Hz, ("plant.fidelity.sensors=perfect", "plant.fidelity.friction=false"))
+            robot = ROBOT_GROWS.get((law, bandwidth_Hz))
+            row = [f"{bandwidth_Hz} Hz, {law}", f"{found['growth_rate_per_s']:.2f} /s"]
+            if not found["stable"]:
+                rows.append(row + ["", "", "", ""])
+                continue
+            linear = [found[k] for k in ("delay_margin_ms", "wheel_delay_margin_ms", "wheel_gain_margin_low", "wheel_gain_margin_high")]
+            units = (" ms", " ms", "", "")
+            rows.append(row + [f"{significant(a)}{unit}, {significant(b)}{unit}" for a, b, unit in zip(linear, robot, units)])
+    table(["torque loop, law", "rate", "delay of all six: loop, robot", "of the wheels: loop, robot", "lowest gain: loop, robot",
+           "highest: loop, robot"], rows)
+
+
 def commissioning():
     table(["what is wrong", "found by the task", "before any torque"],
           [[r["name"], r["found_by"] or "(passes)", "no" if r["torque_was_on"] else "yes"]
@@ -202,4 +246,5 @@ def capture_limits(scenario):
 
 if __name__ == "__main__":
     {"messages": messages, "rejected": rejected, "estimation": estimation, "seeds": seeds, "faults": faults, "budgets": budgets, "checks": checks,
-     "identified": identified, "commissioning": commissioning, "capture": capture, "capture_limits": capture_limits}[sys.argv[1]](*sys.argv[2:])
+     "identified": identified, "margins": margins, "commissioning": commissioning, "capture": capture,
+     "capture_limits": capture_limits}[sys.argv[1]](*sys.argv[2:])

@@ -24,11 +24,33 @@ TEST(Bode, GivesShapingActuatorAndCrossoverAsNumbers) {
   EXPECT_EQ(json["shaping"]["zero_rad_per_s"], 100);
   EXPECT_NEAR(json["actuators"]["wheel"]["blocked_bandwidth_Hz"].get<double>(), 44,
               2);  // docs/theory/actuator.md
-  const auto& loop = json["loop_at_the_wheels"]["series_elastic_drives"];
-  EXPECT_TRUE(loop["stable"].get<bool>());
-  EXPECT_GT(loop["crossover_rad_per_s"].get<double>(), 10.4);  // twice the unstable pole
-  EXPECT_NEAR(json["delay_ms"].get<double>(), 1.0,
+  const auto& loop = json["continuous_loop_at_the_wheels"];
+  EXPECT_GT(loop["series_elastic_drives"]["crossover_rad_per_s"].get<double>(),
+            10.4);  // twice the unstable pole
+  EXPECT_NEAR(loop["delay_ms"].get<double>(), 1.0,
               1e-9);  // two drive ticks and half a tracker period
+}
+
+TEST(Bode, HasTheMarginsOfTheLawInForce) {
+  const auto mpc = bodeJson({})["margins"];
+  EXPECT_TRUE(mpc["stable"].get<bool>());
+  EXPECT_EQ(mpc["repeats_after_ms"], 70);
+  // With so much more the robot stands at 16 ms, and cycles at 18.
+  EXPECT_GT(mpc["delay_margin_ms"].get<double>(), 14);
+  EXPECT_LT(mpc["delay_margin_ms"].get<double>(), 18);
+  const auto tracker = bodeJson({"--set", "controller.tracker.policy_feedback=0"})["margins"];
+  EXPECT_TRUE(tracker["stable"].get<bool>()) << "for the paper's tracker does balance";
+  EXPECT_LT(tracker["wheel_gain_margin_high"].get<double>(),
+            0.5 * mpc["wheel_gain_margin_high"].get<double>());
+  EXPECT_NE(bodeJson({"--set", "controller.kind=lqr"})["margins"], mpc);
+  EXPECT_EQ(bodeJson({"--delay-ms", "20"})["margins"], mpc) << "of the picture alone";
+}
+
+TEST(Bode, RefusesALawThatRemembersWhatItDoesNotKnowOf) {
+  const Finished run =
+      runBallbot({"bode", scenarioPath("balance"), "--set", "controller.kind=decoupled"}, 60);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("its loop cannot be analysed"));
 }
 
 TEST(Bode, ComputesTheShapingFromTheActuatorsBandwidth) {

@@ -1,5 +1,7 @@
 // Margins twice: from the linear loop of `ballbot bode`, and from the whole robot, nonlinear, with
-// noise, with a gain or a delay put into its loop.
+// noise and friction, with a gain or a delay put into its loop, far enough beyond the margin for
+// it to fall; tests/experiment/sampled_loop_test.cpp looks at where small disturbances begin to
+// grow.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -16,7 +18,7 @@ class Margins : public ::testing::Test {
   Margins() {
     const Finished bode = runBallbot({"bode", scenarioPath("balance"), "--json"}, 60);
     EXPECT_EQ(bode.exit_code, 0) << bode.err;
-    linear_ = nlohmann::json::parse(bode.out)["loop_at_the_wheels"]["series_elastic_drives"];
+    linear_ = nlohmann::json::parse(bode.out)["margins"];
   }
   double linear(const char* margin) const { return linear_.at(margin).get<double>(); }
 
