@@ -87,7 +87,9 @@ SampledLoop::SampledLoop(const RunConfig& config, SimTime at)
   }
   for (const SimDuration way : ways) flights_.push_back(plant_.flightOver(way));
   const std::unique_ptr<ControlLaw> law = config.controller.law->makeLawAtRest(at);
-  law->setFloorHeld(FloorHold(robot, config.controller.floor).held());
+  Circumstances at_rest;
+  at_rest.floor_held = FloorHold(robot, config.controller.floor).held();
+  law->setCircumstances(at_rest);
   law_ = linearizeLaw(*law, tracker_, restOf(robot), at, ages);
 }
 
