@@ -24,6 +24,7 @@ ContinuousEngine<NU>::ContinuousEngine(const RobotParameters& robot, const Const
                                        const ContinuousOptions& continuous)
     : problem_(robot, constraints, shaping, terminal, std::move(schedule)),
       floor_limited_(robot, constraints, problem_),
+      disturbed_(shaping, problem_),
       solver_(knots, options, continuous, stateSize()) {}
 
 template <int NU>
@@ -46,6 +47,10 @@ MpcSolveReport ContinuousEngine<NU>::solve(SimTime now, const MpcState& x0, cons
   const double age = toSeconds(now - guess.stamp());
   typename ContinuousProblem<NU>::Base* problem = &problem_;
   if (floor_limited_.isLimited()) problem = &floor_limited_;
+  if (disturbed_.isLoaded()) {
+    disturbed_.setInner(*problem);
+    problem = &disturbed_;
+  }
   const MpcSolveReport report =
       solver_.solve(*problem, x0, PolicyGuess<NU>(guess), age, iterations);
   if (report.ok()) setPolicy(solver_.solution(), now, out);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "controller/disturbed_problem.hpp"
 #include "controller/floor_limited_problem.hpp"
 #include "controller/mpc_engine.hpp"
 #include "solver/continuous_slq.hpp"
@@ -23,6 +24,7 @@ class ContinuousEngine final : public MpcEngine {
   MpcSolveReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
                        MpcPolicy& out) noexcept override;
   void setFloorHeld(double torque) noexcept override { floor_limited_.setHeld(torque); }
+  void setLoad(const LastingLoad& load) noexcept override { disturbed_.setLoad(load); }
   void setClock(PhaseClock clock) noexcept override { solver_.setClock(clock); }
   double shift() const noexcept override { return solver_.shift(); }
   void setShift(double shift) noexcept override { solver_.setShift(shift); }
@@ -30,6 +32,7 @@ class ContinuousEngine final : public MpcEngine {
  private:
   ContinuousProblem<NU> problem_;
   FloorLimitedContinuousProblem<NU> floor_limited_;
+  DisturbedContinuousProblem<NU> disturbed_;  ///< either, under a lasting force
   ContinuousSlq<kMpcStateDim, NU, CostTerms> solver_;
 };
 

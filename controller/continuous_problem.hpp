@@ -25,6 +25,8 @@ class ContinuousProblem final : public ContinuousControlProblem<kMpcStateDim, NU
   /// For a horizon that starts at t0 [s].
   void setHorizon(double t0, const ContactSituation& contact,
                   const GovernedCommands& commands) noexcept;
+  /// Of the time that was set.
+  const Tasks& tasks() const noexcept { return tasks_; }
 
   void setTime(double t) noexcept override;
   void flow(const X& x, const U& u, X& dx) const noexcept override;

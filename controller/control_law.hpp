@@ -83,6 +83,9 @@ class ControlLaw {
   /// plan(); without a call, everything [N m].
   virtual void setFloorHeld(double torque) noexcept { (void)torque; }
 
+  /// What the model does not explain and what lasts, in the rows of nu, for the next plan() [N, N m].
+  virtual void setLastingForce(const VelocityVector& force) noexcept { (void)force; }
+
   /// Has the phases of each plan timed.
   virtual void setClock(PhaseClock clock) noexcept { (void)clock; }
 

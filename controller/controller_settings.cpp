@@ -33,6 +33,11 @@ void describeFloor(ConfigVisitor& v, FloorBelief& floor) {
             [&](ConfigVisitor& in) { floor.describe(in); });
 }
 
+void describeOffsetFree(ConfigVisitor& v, OffsetFree& offset_free) {
+  v.section(may("offset_free", "lasting forces that the model does not know of"),
+            [&](ConfigVisitor& in) { offset_free.describe(in); });
+}
+
 /// What is learned has to have room to be learned in.
 void requireRange(const ConfigReader& controller, const FloorBelief& floor) {
   if (!floor.limited || !floor.learned) return;
@@ -91,6 +96,7 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
   ConfigReader tracker = in.child("tracker");
   out.tracker = TrackerConfig::read(tracker, robot);
   describeFloor(reading, out.floor);
+  describeOffsetFree(reading, out.offset_free);
   requireRange(in, out.floor);
   tracker.finish();
   forEachSection([&](const LawSection& section) { in.raw(section.key.name); });
@@ -113,6 +119,8 @@ void describeController(ConfigVisitor& v, const RobotParameters& robot) {
   describeKnownPayload(v, known_payload);
   FloorBelief floor;
   describeFloor(v, floor);
+  OffsetFree offset_free;
+  describeOffsetFree(v, offset_free);
   v.section(must("tracker", "follows the law's plan, at the highest rate"),
             [&](ConfigVisitor& in) { tracker.describe(in); });
   forEachSection([&](const LawSection& section) {

@@ -5,6 +5,7 @@
 
 #include "controller/floor_belief.hpp"
 #include "controller/law_settings.hpp"
+#include "controller/offset_free.hpp"
 #include "controller/pd_tracker.hpp"
 
 namespace ballbot {
@@ -23,6 +24,7 @@ struct ControllerSettings {
   RobotParameters believed_robot;  ///< with the payload that estimator and law count on
   TrackerConfig tracker;
   FloorBelief floor;
+  OffsetFree offset_free;
   std::shared_ptr<const LawSettings> law;
 
   /// Sections of other laws than the chosen one are passed over, so that one file can hold several

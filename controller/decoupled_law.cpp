@@ -105,6 +105,12 @@ void DecoupledLaw::planArm(SimTime now, const StateVector& x) noexcept {
   planned_.gravity = gravityTorque(at_set_point);
 }
 
+void DecoupledLaw::setLastingForce(const VelocityVector& force) noexcept {
+  VelocityVector on_base = force;
+  on_base.tail<kArmJointCount>().setZero();  // the arm's integral takes care of the rest
+  base_.setLastingForce(on_base);
+}
+
 void DecoupledLaw::activatePlan() noexcept {
   base_.activatePlan();
   active_ = planned_;

@@ -42,6 +42,7 @@ class DecoupledLaw final : public ControlLaw {
   PlanReport plan(SimTime now, const StateVector& x,
                   const JointVector& joint_angle) noexcept override;
   void setFloorHeld(double torque) noexcept override { base_.setFloorHeld(torque); }
+  void setLastingForce(const VelocityVector& force) noexcept override;
   void activatePlan() noexcept override;
   void sample(SimTime now, PolicySample& out) const noexcept override;
   void commanded(SimTime now, SimDuration period, const JointVector& torque) noexcept override;

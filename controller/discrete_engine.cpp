@@ -13,6 +13,7 @@ DiscreteEngine<NU>::DiscreteEngine(const RobotParameters& robot, const Constrain
     : schedule_(std::move(schedule)),
       problem_(robot, constraints, shaping, terminal, knots),
       floor_limited_(robot, constraints, knots, problem_),
+      disturbed_(shaping, knots, problem_),
       solver_(knots, options) {}
 
 template <int NU>
@@ -35,6 +36,10 @@ MpcSolveReport DiscreteEngine<NU>::solve(SimTime now, const MpcState& x0, const 
   const double age = toSeconds(now - guess.stamp());
   const typename WholeBodyProblem<NU>::Base* problem = &problem_;
   if (floor_limited_.isLimited()) problem = &floor_limited_;
+  if (disturbed_.isLoaded()) {
+    disturbed_.setInner(*problem);
+    problem = &disturbed_;
+  }
   const MpcSolveReport report =
       solver_.solve(*problem, x0, PolicyGuess<NU>(guess), age, iterations);
   if (report.ok()) setPolicy(solver_.solution(), now, out);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "controller/disturbed_problem.hpp"
 #include "controller/floor_limited_problem.hpp"
 #include "controller/mpc_engine.hpp"
 #include "controller/whole_body_problem.hpp"
@@ -24,6 +25,7 @@ class DiscreteEngine final : public MpcEngine {
   MpcSolveReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
                        MpcPolicy& out) noexcept override;
   void setFloorHeld(double torque) noexcept override { floor_limited_.setHeld(torque); }
+  void setLoad(const LastingLoad& load) noexcept override { disturbed_.setLoad(load); }
   void setClock(PhaseClock clock) noexcept override { solver_.setClock(clock); }
   double shift() const noexcept override { return solver_.shift(); }
   void setShift(double shift) noexcept override { solver_.setShift(shift); }
@@ -32,6 +34,7 @@ class DiscreteEngine final : public MpcEngine {
   std::shared_ptr<const TaskSchedule> schedule_;
   WholeBodyProblem<NU> problem_;
   FloorLimitedProblem<NU> floor_limited_;  ///< the same on a floor that does not hold everything
+  DisturbedProblem<NU> disturbed_;  ///< either, under a lasting force
   RealTimeIteration<kMpcStateDim, NU, CostTerms> solver_;
 };
 

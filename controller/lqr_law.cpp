@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "controller/lasting_load.hpp"
 #include "controller/reference_limits.hpp"
 #include "core/config_visitor.hpp"
 #include "core/state_visitors.hpp"
@@ -73,6 +74,13 @@ LqrLaw::Plan LqrLaw::planFor(SimTime now, const StateVector& x,
                                    config_.yaw_error_limit);
 
   p.torque = solution_.equilibrium.tau;
+  LastingLoad load;
+  StateVector at = p.x;
+  at[kYaw] = x[kYaw];
+  if (!lasting_force_.isZero(0) && findLastingLoad(dynamics_, at, lasting_force_, load)) {
+    p.x.segment<2>(kPitch) = load.x.segment<2>(kPitch);
+    p.torque = load.torque;
+  }
   p.feedback = gainAtYaw(solution_.K, x[kYaw]);
 
   p.joint_position.head<kWheelCount>() = joint_angle.head<kWheelCount>();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "controller/lasting_load.hpp"
 #include "controller/mpc_policy.hpp"
 #include "solver/slq_report.hpp"
 
@@ -28,6 +29,9 @@ class MpcEngine {
 
   /// What the floor is counted on to hold of the ball's spin; kUnlimited without end [N m].
   virtual void setFloorHeld(double torque) noexcept = 0;
+
+  /// What acts on the robot all along the plans that follow.
+  virtual void setLoad(const LastingLoad& load) noexcept = 0;
 
   virtual void setClock(PhaseClock clock) noexcept = 0;
 

@@ -20,6 +20,10 @@ class MpcLaw final : public ControlLaw {
     planner_.setContactForce(force_W);
   }
   void setFloorHeld(double torque) noexcept override { planner_.setFloorHeld(torque); }
+  void setLastingForce(const VelocityVector& force) noexcept override {
+    planner_.setLastingForce(force);
+    execution_.setLastingForce(force);
+  }
   void setClock(PhaseClock clock) noexcept override { planner_.setClock(clock); }
   void activatePlan() noexcept override;
   void sample(SimTime now, PolicySample& out) const noexcept override;

@@ -222,6 +222,9 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
   governor_.update(now, *config_.schedule, x, tip);
   engine_->setCommands(governor_.commands());
   report.command_cut = governor_.cutting();
+  LastingLoad load;
+  if (!lasting_force_.isZero(0)) findLastingLoad(dynamics_, x, lasting_force_, load);
+  engine_->setLoad(load);
   const bool fresh = previous.valid() && now - previous.stamp() <= config_.fallback_after;
   if (!fresh) seedFrom(stand_in, now, x[kYaw]);
   MpcState x0;

@@ -70,6 +70,9 @@ class MpcPlanner {
   /// What the floor is counted on to hold of the ball's spin; kUnlimited without end [N m].
   void setFloorHeld(double torque) noexcept { engine_->setFloorHeld(torque); }
 
+  /// That acts on the robot along the plans that follow, in the rows of nu [N, N m].
+  void setLastingForce(const VelocityVector& force) noexcept { lasting_force_ = force; }
+
   /// What the planner makes of the contact; part of the state to be saved.
   const ContactSupervisor& contact() const noexcept { return supervisor_; }
   void setContact(const ContactSupervisor& supervisor) noexcept { supervisor_ = supervisor; }
@@ -92,6 +95,7 @@ class MpcPlanner {
   ContactSupervisor supervisor_;
   CommandGovernor governor_;
   Vector3 contact_force_W_ = Vector3::Zero();
+  VelocityVector lasting_force_ = VelocityVector::Zero();
   std::unique_ptr<MpcEngine> engine_;
   std::vector<FeedbackGain> seed_gains_;  ///< per control of the seed, at zero yaw
   MpcPolicy seed_;

@@ -25,6 +25,7 @@ class ContactForceObserver {
   void reset() noexcept {
     started_ = false;
     force_W_.setZero();
+    residual_.setZero();
   }
   /// @param x       estimated state at `now`
   /// @param torque  measured on the joints at `now` [N m]
@@ -32,6 +33,9 @@ class ContactForceObserver {
 
   /// On the end-effector, in W [N]; zero before the second update.
   const Vector3& force() const noexcept { return force_W_; }
+
+  /// r: what the model does not explain, in the rows of nu [N, N m]; zero before the second update.
+  const VelocityVector& residual() const noexcept { return residual_; }
 
   template <typename Self, typename Visitor>
   static void visitState(Self& self, Visitor& visit) {

@@ -12,7 +12,24 @@ namespace ballbot {
 namespace {
 
 constexpr const char* kBlobKind = "controller";
-constexpr std::uint32_t kBlobVersion = 8;
+constexpr std::uint32_t kBlobVersion = 9;
+
+/// Names of what RobotController::estimate() puts beside an estimate.
+void addLastingForce(std::vector<AddedSignal>& list) {
+  for (const char* axis : {"x", "y"}) {
+    list.push_back({std::string("lasting_force_") + axis, "N",
+                    "lasting force along the floor that the model does not know of"});
+  }
+  for (const char* axis : {"x", "y", "z"}) {
+    list.push_back({std::string("lasting_moment_") + axis, "N m",
+                    "the same, moment about the ball's centre in the base's axes"});
+  }
+  for (const char* joint : {"1", "2", "3"}) {
+    list.push_back({std::string("lasting_arm_torque_") + joint, "N m",
+                    "the same, torque in a joint of the arm"});
+  }
+  list.push_back({"lasting_force_learned", "", "1 while it is learned, 0 while it is kept"});
+}
 
 }  // namespace
 
@@ -33,6 +50,7 @@ RobotController::RobotController(const RunConfig& config, EventCalendar& calenda
         {"sigma_ball_spin_rate", "rad/s", "one standard deviation of ball_spin_rate"},
         {"floor_spin_torque_held", "N m", "what the floor is counted on to hold of that spin"}};
   }
+  if (config.controller.offset_free.enabled) addLastingForce(added_[AddedTo::kEstimate].list);
   for (AddedSignals& added : added_.of) added.values.assign(added.list.size(), 0.0);
   const Rates& rates = config.scenario.rates;
   // Within one event: estimate, then plan, then track.
@@ -62,6 +80,7 @@ void RobotController::estimate(SimTime now, const SensorFrame& sensors, ControlO
   // estimator, holds all that it ever saw.
   sensing_.update(sensors);
   law_->setContactForce(sensing_.contactForce());
+  law_->setLastingForce(sensing_.lasting().force());
   out.has_estimate = true;
   const StateEstimate e = sensing_.write(now, out.estimate);
   if (const auto own = sensing_.estimator().selfAssessment()) {
@@ -73,7 +92,15 @@ void RobotController::estimate(SimTime now, const SensorFrame& sensors, ControlO
   }
   law_->setFloorHeld(state_.floor.held());
   AddedSignals& added = added_[AddedTo::kEstimate];
-  if (!added.empty()) added.values = {e.spin_rate, e.spin_rate_sigma, state_.floor.held()};
+  auto value = added.values.begin();
+  if (sensing_.estimator().knowsSpin()) {
+    for (const double v : {e.spin_rate, e.spin_rate_sigma, state_.floor.held()}) *value++ = v;
+  }
+  if (sensing_.lasting().settings().enabled) {
+    const VelocityVector& force = sensing_.lasting().force();
+    value = std::copy(force.data(), force.data() + force.size(), value);
+    *value = sensing_.lasting().learning() ? 1 : 0;
+  }
 }
 
 void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutput& out) {
@@ -181,6 +208,7 @@ void RobotController::restore(const StateBlob& blob, bool with_law) {
   sensing_.restore(whole.sensing);
   if (with_law) law_->restoreState(whole.law);
   law_->setContactForce(sensing_.contactForce());
+  law_->setLastingForce(sensing_.lasting().force());
   state_ = whole.state;
 }
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "controller/lasting_force.hpp"
 #include "core/state_blob.hpp"
 #include "estimator/contact_force_observer.hpp"
 #include "estimator/estimator.hpp"
@@ -26,6 +27,8 @@ class RobotSensing {
   StateEstimate estimate(SimTime now) const noexcept { return estimator_->estimate(now); }
   /// Environment on the end-effector, in W [N]; zero while held.
   const Vector3& contactForce() const noexcept { return contact_force_.force(); }
+  /// What lasts of that which the model does not explain; zero while held.
+  const LastingForce& lasting() const noexcept { return lasting_; }
   /// As it goes on record; the tick is the recorder's.
   StateEstimate write(SimTime now, EstimateFrame& out) const noexcept;
 
@@ -33,14 +36,16 @@ class RobotSensing {
   struct State {
     StateBlob estimator;
     ContactForceObserver contact_force;
+    LastingForce lasting;
 
     template <typename Self, typename Visitor>
     static void visitState(Self& self, Visitor& visit) {
       visit(self.estimator);
       visit(self.contact_force);
+      visit(self.lasting);
     }
   };
-  State state() const { return {estimator_->saveState(), contact_force_}; }
+  State state() const { return {estimator_->saveState(), contact_force_, lasting_}; }
   /// @throw InputError if the estimator refuses its part; nothing has changed then.
   void restore(const State& state);
 
@@ -48,6 +53,7 @@ class RobotSensing {
   SimTime release_;
   std::unique_ptr<Estimator> estimator_;
   ContactForceObserver contact_force_;
+  LastingForce lasting_;
 };
 
 }  // namespace ballbot
