@@ -34,7 +34,7 @@ void BackgroundMpcLaw::solveForever() {
     Result& result = results_.back();
     planner_.setContactForce(r.contact_force_W);
     planner_.setFloorHeld(r.floor_held);
-    planner_.setLastingForce(r.lasting_force);
+    planner_.setLastingForces(r.lasting);
     result.report = planner_.plan(r.now, r.x, r.xf, r.joint_angle, r.stand_in, previous, next);
     if (result.report.accepted) std::swap(previous, next);
     result.policy = previous;
@@ -55,7 +55,7 @@ PlanReport BackgroundMpcLaw::plan(SimTime now, const StateVector& x,
   request.joint_angle = joint_angle;
   request.contact_force_W = contact_force_W_;
   request.floor_held = floor_held_;
-  request.lasting_force = lasting_force_;
+  request.lasting = lasting_;
   requests_.publish();
   sem_post(&wake_);
   PlanReport report = results_.front().report;

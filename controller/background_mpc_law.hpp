@@ -24,9 +24,9 @@ class BackgroundMpcLaw final : public ControlLaw {
                   const JointVector& joint_angle) noexcept override;
   void setContactForce(const Vector3& force_W) noexcept override { contact_force_W_ = force_W; }
   void setFloorHeld(double torque) noexcept override { floor_held_ = torque; }
-  void setLastingForce(const VelocityVector& force) noexcept override {
-    lasting_force_ = force;
-    execution_.setLastingForce(force);
+  void setLastingForces(const LastingForces& forces) noexcept override {
+    lasting_ = forces;
+    execution_.setLastingForces(forces);
   }
   /// Before the first plan(): then the planner is the solver thread's.
   void setClock(PhaseClock clock) noexcept override { planner_.setClock(clock); }
@@ -49,7 +49,7 @@ class BackgroundMpcLaw final : public ControlLaw {
     JointVector joint_angle = JointVector::Zero();
     Vector3 contact_force_W = Vector3::Zero();
     double floor_held = kUnlimited;
-    VelocityVector lasting_force = VelocityVector::Zero();
+    LastingForces lasting;
     PolicySample stand_in;
   };
   struct Result {
@@ -61,7 +61,7 @@ class BackgroundMpcLaw final : public ControlLaw {
   MpcExecution execution_;
   Vector3 contact_force_W_ = Vector3::Zero();
   double floor_held_ = kUnlimited;
-  VelocityVector lasting_force_ = VelocityVector::Zero();
+  LastingForces lasting_;
 
   MpcPlanner planner_;  // the solver thread's alone
   LatestValue<Request> requests_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "controller/cost_terms.hpp"
+#include "controller/lasting_forces.hpp"
 #include "core/state_blob.hpp"
 #include "core/time.hpp"
 #include "model/state.hpp"
@@ -83,8 +84,8 @@ class ControlLaw {
   /// plan(); without a call, everything [N m].
   virtual void setFloorHeld(double torque) noexcept { (void)torque; }
 
-  /// What the model does not explain and what lasts, in the rows of nu, for the next plan() [N, N m].
-  virtual void setLastingForce(const VelocityVector& force) noexcept { (void)force; }
+  /// What lasts of the forces that the model does not know of, for the next plan().
+  virtual void setLastingForces(const LastingForces& forces) noexcept { (void)forces; }
 
   /// Has the phases of each plan timed.
   virtual void setClock(PhaseClock clock) noexcept { (void)clock; }

@@ -59,6 +59,9 @@ DecoupledLaw::DecoupledLaw(const RobotParameters& robot, const MpcConfig& mpc,
       dynamics_(robot),
       rest_(findEquilibrium(dynamics_, robot.nominal_arm).x),
       schedule_(mpc.schedule),
+      known_payload_(robot.payload_mass),
+      hand_by_nu_(
+          dynamics_.endEffectorJacobian(rest_.head<kPositionDim>()).topRows<3>()),
       inverse_kinematics_(robot, config.inverse_kinematics),
       pid_(config.pid),
       base_(withRigidArm(robot, robot.nominal_arm), baseOnly(mpc)) {
@@ -105,10 +108,16 @@ void DecoupledLaw::planArm(SimTime now, const StateVector& x) noexcept {
   planned_.gravity = gravityTorque(at_set_point);
 }
 
-void DecoupledLaw::setLastingForce(const VelocityVector& force) noexcept {
-  VelocityVector on_base = force;
-  on_base.tail<kArmJointCount>().setZero();  // the arm's integral takes care of the rest
-  base_.setLastingForce(on_base);
+void DecoupledLaw::setLastingForces(const LastingForces& forces) noexcept {
+  const double payload = known_payload_ + forces.hand_mass;
+  if (payload != dynamics_.robot().payload_mass) dynamics_.setPayload(payload);
+  // To the base, whose model has no hand, the mass is a weight on the arm at its nominal pose. What
+  // is left at the joints is their integrals' business.
+  LastingForces on_base;
+  const Vector3 weight(0, 0, -forces.hand_mass * dynamics_.robot().gravity);
+  on_base.rest = forces.rest + hand_by_nu_.transpose() * weight;
+  on_base.rest.tail<kArmJointCount>().setZero();
+  base_.setLastingForces(on_base);
 }
 
 void DecoupledLaw::activatePlan() noexcept {

@@ -42,7 +42,7 @@ class DecoupledLaw final : public ControlLaw {
   PlanReport plan(SimTime now, const StateVector& x,
                   const JointVector& joint_angle) noexcept override;
   void setFloorHeld(double torque) noexcept override { base_.setFloorHeld(torque); }
-  void setLastingForce(const VelocityVector& force) noexcept override;
+  void setLastingForces(const LastingForces& forces) noexcept override;
   void activatePlan() noexcept override;
   void sample(SimTime now, PolicySample& out) const noexcept override;
   void commanded(SimTime now, SimDuration period, const JointVector& torque) noexcept override;
@@ -80,6 +80,8 @@ class DecoupledLaw final : public ControlLaw {
   /// Of the robot with its arm in the nominal pose, which is all the base knows.
   StateVector rest_;
   std::shared_ptr<const TaskSchedule> schedule_;
+  double known_payload_;  ///< [kg]
+  Eigen::Matrix<double, 3, kVelocityDim> hand_by_nu_;  ///< v_WE_W by nu, at rest_
   ArmInverseKinematics inverse_kinematics_;
   ArmPidConfig pid_;
   MpcLaw base_;

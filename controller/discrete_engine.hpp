@@ -26,6 +26,7 @@ class DiscreteEngine final : public MpcEngine {
                        MpcPolicy& out) noexcept override;
   void setFloorHeld(double torque) noexcept override { floor_limited_.setHeld(torque); }
   void setLoad(const LastingLoad& load) noexcept override { disturbed_.setLoad(load); }
+  void setPayload(double mass) noexcept override { problem_.setPayload(mass); }
   void setClock(PhaseClock clock) noexcept override { solver_.setClock(clock); }
   double shift() const noexcept override { return solver_.shift(); }
   void setShift(double shift) noexcept override { solver_.setShift(shift); }

@@ -1,9 +1,17 @@
 #include "controller/lasting_force.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ballbot {
 namespace {
+
+constexpr double kHandSmoothing_s = 0.1;
+constexpr double kHandChange_N = 4;
+/// Felt in the hand beside what is counted on: nothing to speak of, 0.1 kg [N].
+constexpr double kHandKnown_N = 1;
+/// Of a weight in the hand, what a robot that moves takes for a force sideways.
+constexpr double kSidewaysShare = 0.15;
 
 VelocityVector byRow(double force, double moment, double arm) {
   VelocityVector out;
@@ -13,31 +21,59 @@ VelocityVector byRow(double force, double moment, double arm) {
 
 }  // namespace
 
-LastingForce::LastingForce(const OffsetFree& settings)
+LastingForce::LastingForce(const RobotParameters& robot, const OffsetFree& settings)
     : settings_(settings),
+      known_payload_(robot.payload_mass),
+      gravity_(robot.gravity),
       change_(byRow(settings.force_change_N, settings.moment_change_Nm, settings.arm_change_Nm)),
       limit_(byRow(settings.force_limit_N, settings.moment_limit_Nm, settings.arm_limit_Nm)) {}
 
 void LastingForce::reset() noexcept {
   started_ = learning_ = false;
-  force_.setZero();
+  hand_known_ = true;
+  hand_force_.setZero();
+  forces_ = {};
 }
 
-void LastingForce::update(SimTime now, const VelocityVector& residual, bool explained) noexcept {
+void LastingForce::update(SimTime now, const Unexplained& felt) noexcept {
   learning_ = false;
-  if (!settings_.enabled || !residual.allFinite()) return;
+  if (!settings_.enabled || !felt.residual.allFinite() || !felt.hand_force_W.allFinite()) return;
   const double dt = started_ ? toSeconds(now - last_) : 0;
   last_ = now;
-  const bool changed =
-      !started_ || ((residual - reference_).cwiseAbs().array() > change_.array()).any();
-  if (changed) reference_ = residual;
-  if (changed || explained) settled_since_ = now;
+  const bool first = !started_;
   started_ = true;
+  if (first) hand_settled_since_ = now;
+  hand_force_ += std::min(1.0, dt / kHandSmoothing_s) * (felt.hand_force_W - hand_force_);
+  const double weight = gravity_ * std::abs(forces_.hand_mass) + std::abs(hand_force_.z());
+  const bool touches =
+      hand_force_.head<2>().norm() > settings_.touch_N + kSidewaysShare * weight;
+  const bool otherwise = felt.otherwise || touches;
+  learnHand(now, dt, felt.hand_force_W, otherwise);
+
+  const bool changed =
+      first || ((felt.residual - reference_).cwiseAbs().array() > change_.array()).any();
+  if (changed) reference_ = felt.residual;
+  // The hand first: until its weight is known, its moment would be learned as another.
+  if (changed || otherwise || !hand_known_) settled_since_ = now;
   if (toSeconds(now - settled_since_) < settings_.settled_after) return;
   learning_ = true;
-  const double share = std::min(1.0, dt / settings_.time_constant);
-  force_ += share * (residual - force_);
-  force_ = force_.cwiseMax(-limit_).cwiseMin(limit_);
+  VelocityVector& rest = forces_.rest;
+  rest += std::min(1.0, dt / settings_.time_constant) * (felt.residual - rest);
+  rest = rest.cwiseMax(-limit_).cwiseMin(limit_);
+}
+
+void LastingForce::learnHand(SimTime now, double dt, const Vector3& force_W,
+                             bool otherwise) noexcept {
+  const double felt = gravity_ * forces_.hand_mass - force_W.z();
+  const bool changed = std::abs(felt - hand_reference_) > kHandChange_N;
+  if (changed) hand_reference_ = felt;
+  if (changed || otherwise) hand_settled_since_ = now;
+  hand_known_ = std::abs(hand_force_.z()) < kHandKnown_N;
+  if (toSeconds(now - hand_settled_since_) < settings_.settled_after) return;
+  const double share = std::min(1.0, dt / settings_.hand_time_constant);
+  forces_.hand_mass = std::clamp(forces_.hand_mass - share * force_W.z() / gravity_,
+                                 std::max(-known_payload_, -settings_.hand_mass_limit_kg),
+                                 settings_.hand_mass_limit_kg);
 }
 
 }  // namespace ballbot

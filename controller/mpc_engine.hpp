@@ -33,6 +33,9 @@ class MpcEngine {
   /// What acts on the robot all along the plans that follow.
   virtual void setLoad(const LastingLoad& load) noexcept = 0;
 
+  /// The mass in the robot's hand [kg].
+  virtual void setPayload(double mass) noexcept = 0;
+
   virtual void setClock(PhaseClock clock) noexcept = 0;
 
   /// What the engine carries from one solve to the next.

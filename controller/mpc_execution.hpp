@@ -27,7 +27,7 @@ class MpcExecution {
   void commanded(SimDuration period, const JointVector& torque) noexcept;
   const Vector3& filterState() const noexcept { return xf_; }  ///< [N m]
 
-  void setLastingForce(const VelocityVector& force) noexcept { lqr_.setLastingForce(force); }
+  void setLastingForces(const LastingForces& forces) noexcept { lqr_.setLastingForces(forces); }
 
   StateBlob saveStandIn() const { return lqr_.saveState(); }
   void restore(const Vector3& filter_state, const StateBlob& stand_in);

@@ -20,9 +20,9 @@ class MpcLaw final : public ControlLaw {
     planner_.setContactForce(force_W);
   }
   void setFloorHeld(double torque) noexcept override { planner_.setFloorHeld(torque); }
-  void setLastingForce(const VelocityVector& force) noexcept override {
-    planner_.setLastingForce(force);
-    execution_.setLastingForce(force);
+  void setLastingForces(const LastingForces& forces) noexcept override {
+    planner_.setLastingForces(forces);
+    execution_.setLastingForces(forces);
   }
   void setClock(PhaseClock clock) noexcept override { planner_.setClock(clock); }
   void activatePlan() noexcept override;

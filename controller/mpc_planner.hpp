@@ -70,8 +70,8 @@ class MpcPlanner {
   /// What the floor is counted on to hold of the ball's spin; kUnlimited without end [N m].
   void setFloorHeld(double torque) noexcept { engine_->setFloorHeld(torque); }
 
-  /// That acts on the robot along the plans that follow, in the rows of nu [N, N m].
-  void setLastingForce(const VelocityVector& force) noexcept { lasting_force_ = force; }
+  /// That act on the robot along the plans that follow.
+  void setLastingForces(const LastingForces& forces) noexcept { lasting_ = forces; }
 
   /// What the planner makes of the contact; part of the state to be saved.
   const ContactSupervisor& contact() const noexcept { return supervisor_; }
@@ -87,6 +87,8 @@ class MpcPlanner {
  private:
   /// A guess where there is no plan: the LQR's policy, its gains those for the engine's steps.
   void seedFrom(const PolicySample& stand_in, SimTime now, double yaw) noexcept;
+  /// Tells the engine what lasting forces do.
+  void takeLastingForces(const StateVector& x) noexcept;
   /// Tells the engine what to count on at the end-effector.
   ContactReport superviseContact(SimTime now, const Vector3& p_WE) noexcept;
 
@@ -95,7 +97,8 @@ class MpcPlanner {
   ContactSupervisor supervisor_;
   CommandGovernor governor_;
   Vector3 contact_force_W_ = Vector3::Zero();
-  VelocityVector lasting_force_ = VelocityVector::Zero();
+  double known_payload_;  ///< [kg]
+  LastingForces lasting_;
   std::unique_ptr<MpcEngine> engine_;
   std::vector<FeedbackGain> seed_gains_;  ///< per control of the seed, at zero yaw
   MpcPolicy seed_;

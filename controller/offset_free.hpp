@@ -13,7 +13,12 @@ struct OffsetFree {
   /// ... by more than this: of the forces along the floor, of the moments about the ball's centre
   /// and of the arm's torques.
   double force_change_N = 4, moment_change_Nm = 2, arm_change_Nm = 1.5;
+  /// Mass in the hand: with which it is learned [s], and as whose force sideways on the hand a
+  /// touch is known, while which nothing is learned [N].
+  double hand_time_constant = 0.5;
+  double touch_N = 1.5;
   /// That is counted on at most.
+  double hand_mass_limit_kg = 3;
   double force_limit_N = 20, moment_limit_Nm = 15, arm_limit_Nm = 12;
 
   void describe(ConfigVisitor& v) {
@@ -31,6 +36,14 @@ struct OffsetFree {
              moment_change_Nm, {0.1, 1e3});
     v.number(may("arm_change_Nm", "change of a torque in a joint of the arm"), arm_change_Nm,
              {0.1, 1e3});
+    v.number(may("hand_time_constant_s", "with which a mass in the hand is learned"),
+             hand_time_constant, {0.05, 100});
+    v.number(may("touch_N",
+                 "force sideways on the hand from which on it touches something, and nothing is "
+                 "learned"),
+             touch_N, {0.1, 1e3});
+    v.number(may("hand_mass_limit_kg", "mass in the hand, unknown before, that is counted on at most"),
+             hand_mass_limit_kg, {0, 100});
     v.number(may("force_limit_N", "force along the floor that is counted on at most"),
              force_limit_N, {0, 1e3});
     v.number(may("moment_limit_Nm", "moment about the ball's centre that is counted on at most"),

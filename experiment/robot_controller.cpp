@@ -16,6 +16,7 @@ constexpr std::uint32_t kBlobVersion = 9;
 
 /// Names of what RobotController::estimate() puts beside an estimate.
 void addLastingForce(std::vector<AddedSignal>& list) {
+  list.push_back({"lasting_hand_mass", "kg", "mass in the hand that the model does not know of"});
   for (const char* axis : {"x", "y"}) {
     list.push_back({std::string("lasting_force_") + axis, "N",
                     "lasting force along the floor that the model does not know of"});
@@ -80,7 +81,7 @@ void RobotController::estimate(SimTime now, const SensorFrame& sensors, ControlO
   // estimator, holds all that it ever saw.
   sensing_.update(sensors);
   law_->setContactForce(sensing_.contactForce());
-  law_->setLastingForce(sensing_.lasting().force());
+  law_->setLastingForces(sensing_.lasting().forces());
   out.has_estimate = true;
   const StateEstimate e = sensing_.write(now, out.estimate);
   if (const auto own = sensing_.estimator().selfAssessment()) {
@@ -96,9 +97,10 @@ void RobotController::estimate(SimTime now, const SensorFrame& sensors, ControlO
   if (sensing_.estimator().knowsSpin()) {
     for (const double v : {e.spin_rate, e.spin_rate_sigma, state_.floor.held()}) *value++ = v;
   }
-  if (sensing_.lasting().settings().enabled) {
-    const VelocityVector& force = sensing_.lasting().force();
-    value = std::copy(force.data(), force.data() + force.size(), value);
+  if (sensing_.lasting().enabled()) {
+    const LastingForces& forces = sensing_.lasting().forces();
+    *value++ = forces.hand_mass;
+    value = std::copy(forces.rest.data(), forces.rest.data() + forces.rest.size(), value);
     *value = sensing_.lasting().learning() ? 1 : 0;
   }
 }
@@ -208,7 +210,7 @@ void RobotController::restore(const StateBlob& blob, bool with_law) {
   sensing_.restore(whole.sensing);
   if (with_law) law_->restoreState(whole.law);
   law_->setContactForce(sensing_.contactForce());
-  law_->setLastingForce(sensing_.lasting().force());
+  law_->setLastingForces(sensing_.lasting().forces());
   state_ = whole.state;
 }
 

@@ -27,7 +27,7 @@ class RobotSensing {
   StateEstimate estimate(SimTime now) const noexcept { return estimator_->estimate(now); }
   /// Environment on the end-effector, in W [N]; zero while held.
   const Vector3& contactForce() const noexcept { return contact_force_.force(); }
-  /// What lasts of that which the model does not explain; zero while held.
+  /// What lasts of that which the model does not explain; none while held.
   const LastingForce& lasting() const noexcept { return lasting_; }
   /// As it goes on record; the tick is the recorder's.
   StateEstimate write(SimTime now, EstimateFrame& out) const noexcept;
@@ -37,23 +37,30 @@ class RobotSensing {
     StateBlob estimator;
     ContactForceObserver contact_force;
     LastingForce lasting;
+    std::int64_t wheels_refused;
 
     template <typename Self, typename Visitor>
     static void visitState(Self& self, Visitor& visit) {
       visit(self.estimator);
       visit(self.contact_force);
       visit(self.lasting);
+      visit(self.wheels_refused);
     }
   };
-  State state() const { return {estimator_->saveState(), contact_force_, lasting_}; }
+  State state() const { return {estimator_->saveState(), contact_force_, lasting_, wheels_refused_}; }
   /// @throw InputError if the estimator refuses its part; nothing has changed then.
   void restore(const State& state);
 
  private:
+  void learnLasting(const SensorFrame& frame, const StateEstimate& e) noexcept;
+  /// Estimator and observer count on the mass that is learned.
+  void tellHand() noexcept;
+
   SimTime release_;
   std::unique_ptr<Estimator> estimator_;
   ContactForceObserver contact_force_;
   LastingForce lasting_;
+  std::int64_t wheels_refused_ = 0;  ///< intervals of them, so far
 };
 
 }  // namespace ballbot

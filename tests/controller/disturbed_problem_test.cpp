@@ -64,8 +64,7 @@ TEST_F(DisturbedProblemTest, AStepIsTheMotionUnderTheForce) {
   x_.segment<kVelocityDim>(kPositionDim).setConstant(0.05);
   const auto rate = [&](const StateVector& x) {
     StateVector dx = dynamics_.derivative(x, u_, Vector3::Zero());
-    dx.tail<kVelocityDim>() +=
-        dynamics_.massMatrix(x.head<kPositionDim>()).ldlt().solve(force_);
+    dx.tail<kVelocityDim>() += dynamics_.massMatrix(x.head<kPositionDim>()).ldlt().solve(force_);
     return dx;
   };
   StateVector x = x_.head<kStateDim>();

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/state_visitors.hpp"
+#include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
 namespace {
@@ -19,11 +20,11 @@ OffsetFree enabled() {
 /// Frames of 2.5 ms with what the model does not explain.
 class Felt {
  public:
-  explicit Felt(const OffsetFree& settings = enabled()) : lasting(settings) {}
+  explicit Felt(const OffsetFree& settings = enabled()) : lasting(exampleRobot(), settings) {}
   void run(double seconds, const VelocityVector& residual, bool explained = false) {
     for (int n = 0; n < std::lround(seconds / 0.0025); ++n) {
       now_ += SimDuration(2'500'000);
-      lasting.update(now_, residual, explained);
+      lasting.update(now_, {residual, Vector3::Zero(), explained});
     }
   }
   LastingForce lasting;
@@ -44,32 +45,33 @@ TEST(LastingForce, WhatStaysIsLearnedAfterHalfASecondByAFirstOrderLag) {
   const VelocityVector d = force(8, -3, 5);
   Felt robot;
   robot.run(0.49, d);
-  EXPECT_EQ(robot.lasting.force(), VelocityVector::Zero());
+  EXPECT_EQ(robot.lasting.forces().rest, VelocityVector::Zero());
   robot.run(0.01, d);
   robot.run(2, d);
   EXPECT_TRUE(robot.lasting.learning());
-  EXPECT_LT((robot.lasting.force() - (1 - std::exp(-2.0)) * d).norm(), 0.01 * d.norm());
+  EXPECT_LT((robot.lasting.forces().rest - (1 - std::exp(-2.0)) * d).norm(), 0.01 * d.norm());
 }
 
 TEST(LastingForce, APushOfHalfASecondLeavesNothing) {
   Felt robot;
   robot.run(2, VelocityVector::Zero());
   robot.run(0.5, force(20, 7, 0));
-  EXPECT_LT(robot.lasting.force().norm(), 0.1);
+  EXPECT_LT(robot.lasting.forces().rest.norm(), 0.1);
   robot.run(2, VelocityVector::Zero());
-  EXPECT_LT(robot.lasting.force().norm(), 0.1);
+  EXPECT_LT(robot.lasting.forces().rest.norm(), 0.1);
 }
 
 TEST(LastingForce, WhatIsExplainedOtherwiseIsNotLearned) {
   Felt robot;
   robot.run(5, force(8, 0, 0), true);
-  EXPECT_EQ(robot.lasting.force(), VelocityVector::Zero());
+  EXPECT_EQ(robot.lasting.forces().rest, VelocityVector::Zero());
   robot.run(0.4, force(8, 0, 0));
-  EXPECT_EQ(robot.lasting.force(), VelocityVector::Zero()) << "it is over, but not for long enough";
+  EXPECT_EQ(robot.lasting.forces().rest, VelocityVector::Zero())
+      << "it is over, but not for long enough";
   robot.run(5, force(8, 0, 0));
-  EXPECT_GT(robot.lasting.force()[kBallVx], 7.5);
+  EXPECT_GT(robot.lasting.forces().rest[kBallVx], 7.5);
   robot.run(5, VelocityVector::Zero(), true);
-  EXPECT_GT(robot.lasting.force()[kBallVx], 7.5) << "kept";
+  EXPECT_GT(robot.lasting.forces().rest[kBallVx], 7.5) << "kept";
 }
 
 TEST(LastingForce, IsBoundedRowByRow) {
@@ -79,30 +81,73 @@ TEST(LastingForce, IsBoundedRowByRow) {
   settings.arm_limit_Nm = 1;
   Felt robot(settings);
   robot.run(20, force(50, -50, 50));
-  EXPECT_EQ(robot.lasting.force(), force(5, -2, 1));
+  EXPECT_EQ(robot.lasting.forces().rest, force(5, -2, 1));
 }
 
 TEST(LastingForce, DoesNothingUnlessAsked) {
   Felt robot{OffsetFree()};
   robot.run(5, force(8, 3, 2));
-  EXPECT_EQ(robot.lasting.force(), VelocityVector::Zero());
+  EXPECT_EQ(robot.lasting.forces().rest, VelocityVector::Zero());
 }
 
 TEST(LastingForce, PassesOverWhatIsNoNumber) {
   Felt robot;
   robot.run(3, force(8, 0, 0));
-  const VelocityVector before = robot.lasting.force();
+  const VelocityVector before = robot.lasting.forces().rest;
   robot.run(0.5, VelocityVector::Constant(std::numeric_limits<double>::quiet_NaN()));
-  EXPECT_EQ(robot.lasting.force(), before);
+  EXPECT_EQ(robot.lasting.forces().rest, before);
   robot.run(2, force(8, 0, 0));
-  EXPECT_GT(robot.lasting.force()[kBallVx], before[kBallVx]);
+  EXPECT_GT(robot.lasting.forces().rest[kBallVx], before[kBallVx]);
+}
+
+/// A mass in the hand as the observer shows it: what is not counted on yet.
+void hang(LastingForce& lasting, SimTime& now, double seconds, double mass, double sideways = 0) {
+  for (int n = 0; n < std::lround(seconds / 0.0025); ++n) {
+    now += SimDuration(2'500'000);
+    const double felt = -9.81 * (mass - lasting.forces().hand_mass);
+    lasting.update(now, {VelocityVector::Zero(), Vector3(sideways, 0, felt), false});
+  }
+}
+
+TEST(LastingForce, AMassInTheHandIsLearnedBeforeTheRest) {
+  LastingForce lasting(exampleRobot(), enabled());
+  SimTime now = kSimStart;
+  hang(lasting, now, 0.4, 2);
+  EXPECT_EQ(lasting.forces().hand_mass, 0);
+  EXPECT_FALSE(lasting.handKnown());
+  hang(lasting, now, 0.6, 2);
+  EXPECT_GT(lasting.forces().hand_mass, 1);
+  EXPECT_FALSE(lasting.learning()) << "the rest waits";
+  hang(lasting, now, 4, 2);
+  EXPECT_NEAR(lasting.forces().hand_mass, 2, 0.01);
+  EXPECT_TRUE(lasting.handKnown());
+  EXPECT_TRUE(lasting.learning());
+}
+
+TEST(LastingForce, WhatIsTouchedIsNoMassInTheHand) {
+  LastingForce lasting(exampleRobot(), enabled());
+  SimTime now = kSimStart;
+  hang(lasting, now, 5, 0.2, 4);
+  EXPECT_LT(lasting.forces().hand_mass, 0.01);
+  EXPECT_FALSE(lasting.learning());
+}
+
+TEST(LastingForce, AHandThatIsEmptierThanToldHoldsNoLessThanNothing) {
+  RobotParameters robot = exampleRobot();
+  robot.payload_mass = 0.5;
+  LastingForce lasting(robot, enabled());
+  SimTime now = kSimStart;
+  hang(lasting, now, 8, -0.5);
+  EXPECT_NEAR(lasting.handMass(), 0, 0.01);
+  hang(lasting, now, 8, -2);
+  EXPECT_EQ(lasting.handMass(), 0);
 }
 
 TEST(LastingForce, GoesOnFromASavedState) {
   Felt robot, other;
   robot.run(1.3, force(8, 1, 0));
   restoreStateOf(other.lasting, saveStateOf(robot.lasting, "lasting", 1), "lasting", 1);
-  EXPECT_EQ(other.lasting.force(), robot.lasting.force());
+  EXPECT_EQ(other.lasting.forces().rest, robot.lasting.forces().rest);
   EXPECT_EQ(other.lasting.learning(), robot.lasting.learning());
 }
 

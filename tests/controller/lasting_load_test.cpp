@@ -65,8 +65,8 @@ TEST(LastingLoad, AMassInTheHandGivesTheRestOfARobotThatKnowsOfIt) {
   const Equilibrium expected = findEquilibrium(with_mass, robot.nominal_arm);
   const PositionVector q = expected.x.head<kPositionDim>();
   // The weight as a force on the end-effector: J^T (0, 0, -m g).
-  const VelocityVector d = dynamics.endEffectorJacobian(q).topRows<3>().transpose() *
-                           Vector3(0, 0, -2 * robot.gravity);
+  const VelocityVector d =
+      dynamics.endEffectorJacobian(q).topRows<3>().transpose() * Vector3(0, 0, -2 * robot.gravity);
   LastingLoad load;
   ASSERT_TRUE(findLastingLoad(dynamics, expected.x, d, load));
   EXPECT_LT((load.x - expected.x).cwiseAbs().maxCoeff(), 1e-9);
@@ -94,8 +94,7 @@ TEST(LastingLoad, OnASlopeTheCentreOfMassIsAboveTheContact) {
   const double moment = -(energy(1e-5) - energy(-1e-5)) / 2e-5;
   EXPECT_NEAR(moment, -pull * robot.ball.radius, 1e-6);
   // And the wheels' torque on the ball is that of the pull at the ball's radius.
-  const Vector3 on_ball_B =
-      OmniwheelKinematics(robot).ballTorque(load.torque.head<kWheelCount>());
+  const Vector3 on_ball_B = OmniwheelKinematics(robot).ballTorque(load.torque.head<kWheelCount>());
   const Vector3 on_ball_W =
       rotationFromYawPitchRoll(load.x[kYaw], load.x[kPitch], load.x[kRoll]) * on_ball_B;
   EXPECT_NEAR(on_ball_W.y(), -pull * robot.ball.radius, 1e-9);
