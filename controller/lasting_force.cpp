@@ -6,7 +6,7 @@
 namespace ballbot {
 namespace {
 
-constexpr double kHandSmoothing_s = 0.1;
+constexpr double kSmoothing_s = 0.1;  // of what is looked at for changes: friction makes noise
 constexpr double kHandChange_N = 4;
 /// Felt in the hand beside what is counted on: nothing to speak of, 0.1 kg [N].
 constexpr double kHandKnown_N = 1;
@@ -42,29 +42,35 @@ void LastingForce::update(SimTime now, const Unexplained& felt) noexcept {
   last_ = now;
   const bool first = !started_;
   started_ = true;
-  if (first) hand_settled_since_ = now;
-  hand_force_ += std::min(1.0, dt / kHandSmoothing_s) * (felt.hand_force_W - hand_force_);
+  if (first) {
+    hand_settled_since_ = settled_since_ = now;
+    smooth_ = reference_ = felt.residual;
+  }
+  const double share = std::min(1.0, dt / kSmoothing_s);
+  hand_force_ += share * (felt.hand_force_W - hand_force_);
+  smooth_ += share * (felt.residual - smooth_);
   const double weight = gravity_ * std::abs(forces_.hand_mass) + std::abs(hand_force_.z());
-  const bool touches =
-      hand_force_.head<2>().norm() > settings_.touch_N + kSidewaysShare * weight;
+  const bool touches = hand_force_.head<2>().norm() > settings_.touch_N + kSidewaysShare * weight;
   const bool otherwise = felt.otherwise || touches;
   learnHand(now, dt, felt.hand_force_W, otherwise);
+  learnRest(now, dt, otherwise);
+}
 
-  const bool changed =
-      first || ((felt.residual - reference_).cwiseAbs().array() > change_.array()).any();
-  if (changed) reference_ = felt.residual;
+void LastingForce::learnRest(SimTime now, double dt, bool otherwise) noexcept {
+  const bool changed = ((smooth_ - reference_).cwiseAbs().array() > change_.array()).any();
+  if (changed) reference_ = smooth_;
   // The hand first: until its weight is known, its moment would be learned as another.
   if (changed || otherwise || !hand_known_) settled_since_ = now;
   if (toSeconds(now - settled_since_) < settings_.settled_after) return;
   learning_ = true;
   VelocityVector& rest = forces_.rest;
-  rest += std::min(1.0, dt / settings_.time_constant) * (felt.residual - rest);
+  rest += std::min(1.0, dt / settings_.time_constant) * (smooth_ - rest);
   rest = rest.cwiseMax(-limit_).cwiseMin(limit_);
 }
 
 void LastingForce::learnHand(SimTime now, double dt, const Vector3& force_W,
                              bool otherwise) noexcept {
-  const double felt = gravity_ * forces_.hand_mass - force_W.z();
+  const double felt = gravity_ * forces_.hand_mass - hand_force_.z();
   const bool changed = std::abs(felt - hand_reference_) > kHandChange_N;
   if (changed) hand_reference_ = felt;
   if (changed || otherwise) hand_settled_since_ = now;

@@ -52,11 +52,13 @@ class LastingForce {
     visit(self.reference_);
     visit(self.hand_reference_);
     visit(self.hand_force_);
+    visit(self.smooth_);
     visit(self.forces_);
   }
 
  private:
   void learnHand(SimTime now, double dt, const Vector3& force_W, bool otherwise) noexcept;
+  void learnRest(SimTime now, double dt, bool otherwise) noexcept;
 
   OffsetFree settings_;
   double known_payload_, gravity_;
@@ -68,8 +70,9 @@ class LastingForce {
   SimTime settled_since_{}, hand_settled_since_{};
   /// From which no change is counted.
   VelocityVector reference_ = VelocityVector::Zero();
-  double hand_reference_ = 0;              ///< weight in the hand, felt and counted on [N]
-  Vector3 hand_force_ = Vector3::Zero();   ///< smoothed [N]
+  double hand_reference_ = 0;                       ///< weight in the hand, felt and counted on [N]
+  Vector3 hand_force_ = Vector3::Zero();            ///< smoothed [N]
+  VelocityVector smooth_ = VelocityVector::Zero();  ///< residual, smoothed
   LastingForces forces_;
 };
 
