@@ -60,8 +60,7 @@ DecoupledLaw::DecoupledLaw(const RobotParameters& robot, const MpcConfig& mpc,
       rest_(findEquilibrium(dynamics_, robot.nominal_arm).x),
       schedule_(mpc.schedule),
       known_payload_(robot.payload_mass),
-      hand_by_nu_(
-          dynamics_.endEffectorJacobian(rest_.head<kPositionDim>()).topRows<3>()),
+      hand_by_nu_(dynamics_.endEffectorJacobian(rest_.head<kPositionDim>()).topRows<3>()),
       inverse_kinematics_(robot, config.inverse_kinematics),
       pid_(config.pid),
       base_(withRigidArm(robot, robot.nominal_arm), baseOnly(mpc)) {

@@ -80,7 +80,7 @@ class DecoupledLaw final : public ControlLaw {
   /// Of the robot with its arm in the nominal pose, which is all the base knows.
   StateVector rest_;
   std::shared_ptr<const TaskSchedule> schedule_;
-  double known_payload_;  ///< [kg]
+  double known_payload_;                               ///< [kg]
   Eigen::Matrix<double, 3, kVelocityDim> hand_by_nu_;  ///< v_WE_W by nu, at rest_
   ArmInverseKinematics inverse_kinematics_;
   ArmPidConfig pid_;

@@ -35,7 +35,7 @@ class DiscreteEngine final : public MpcEngine {
   std::shared_ptr<const TaskSchedule> schedule_;
   WholeBodyProblem<NU> problem_;
   FloorLimitedProblem<NU> floor_limited_;  ///< the same on a floor that does not hold everything
-  DisturbedProblem<NU> disturbed_;  ///< either, under a lasting force
+  DisturbedProblem<NU> disturbed_;         ///< either, under a lasting force
   RealTimeIteration<kMpcStateDim, NU, CostTerms> solver_;
 };
 

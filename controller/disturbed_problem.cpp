@@ -28,8 +28,7 @@ void DisturbedProblem<NU>::step(int k, const X& x, const U& u, X& next) const no
   const VelocityVector nu = x.template segment<kVelocityDim>(kNu);
   const PositionVector mid = q + 0.5 * H * EulerRates(q).rate(nu);
   next.template segment<kVelocityDim>(kNu) += H * load_.acceleration;
-  next.template head<kPositionDim>() +=
-      0.5 * H * H * EulerRates(mid).rate(load_.acceleration);
+  next.template head<kPositionDim>() += 0.5 * H * H * EulerRates(mid).rate(load_.acceleration);
 }
 
 template <int NU>
@@ -49,8 +48,7 @@ void DisturbedProblem<NU>::addTorqueCost(int k, const X& x, const U& u,
 }
 
 template <int NU>
-void DisturbedProblem<NU>::addCost(int k, const X& x, const U& u,
-                                   CostTerms& terms) const noexcept {
+void DisturbedProblem<NU>::addCost(int k, const X& x, const U& u, CostTerms& terms) const noexcept {
   inner_->addCost(k, x, u, terms);
   addTorqueCost(k, x, u, terms);
 }

@@ -32,6 +32,7 @@ void LastingForce::reset() noexcept {
   started_ = learning_ = false;
   hand_known_ = true;
   hand_force_.setZero();
+  hand_weight_ = hand_reference_ = 0;
   forces_ = {};
 }
 
@@ -70,9 +71,10 @@ void LastingForce::learnRest(SimTime now, double dt, bool otherwise) noexcept {
 
 void LastingForce::learnHand(SimTime now, double dt, const Vector3& force_W,
                              bool otherwise) noexcept {
-  const double felt = gravity_ * forces_.hand_mass - hand_force_.z();
-  const bool changed = std::abs(felt - hand_reference_) > kHandChange_N;
-  if (changed) hand_reference_ = felt;
+  const double felt = gravity_ * forces_.hand_mass - force_W.z();
+  hand_weight_ += std::min(1.0, dt / kSmoothing_s) * (felt - hand_weight_);
+  const bool changed = std::abs(hand_weight_ - hand_reference_) > kHandChange_N;
+  if (changed) hand_reference_ = hand_weight_;
   if (changed || otherwise) hand_settled_since_ = now;
   hand_known_ = std::abs(hand_force_.z()) < kHandKnown_N;
   if (toSeconds(now - hand_settled_since_) < settings_.settled_after) return;

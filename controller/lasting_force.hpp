@@ -52,6 +52,7 @@ class LastingForce {
     visit(self.reference_);
     visit(self.hand_reference_);
     visit(self.hand_force_);
+    visit(self.hand_weight_);
     visit(self.smooth_);
     visit(self.forces_);
   }
@@ -71,6 +72,7 @@ class LastingForce {
   /// From which no change is counted.
   VelocityVector reference_ = VelocityVector::Zero();
   double hand_reference_ = 0;                       ///< weight in the hand, felt and counted on [N]
+  double hand_weight_ = 0;                          ///< the same, smoothed [N]
   Vector3 hand_force_ = Vector3::Zero();            ///< smoothed [N]
   VelocityVector smooth_ = VelocityVector::Zero();  ///< residual, smoothed
   LastingForces forces_;

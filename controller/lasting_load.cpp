@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMostLean = 20 * kRadPerDeg;
 constexpr int kIterations = 8;
-constexpr double kStep = 1e-6;         // of the differences [rad]
+constexpr double kStep = 1e-6;  // of the differences [rad]
 constexpr double kAtRest_Nm = 1e-11;
 
 /// About x and y of W through the contact, of gravity and force [N m].
@@ -49,8 +49,7 @@ bool lean(const ReducedDynamics& dynamics, const VelocityVector& force, Position
 /// Of the drives at rest in q under `force`.
 JointVector holdingTorque(const ReducedDynamics& dynamics, const PositionVector& q,
                           const VelocityVector& force) {
-  const VelocityVector needed =
-      dynamics.nonlinearEffects(q, VelocityVector::Zero()) - force;
+  const VelocityVector needed = dynamics.nonlinearEffects(q, VelocityVector::Zero()) - force;
   const Matrix3 wheels_on_base =
       dynamics.selectionMatrix(q).block<kWheelCount, 3>(0, kOmegaX).transpose();
   JointVector tau;
@@ -73,8 +72,7 @@ bool findLastingLoad(const ReducedDynamics& dynamics, const StateVector& at,
   out.torque = holdingTorque(dynamics, q, force);
   out.shift = out.torque - holdingTorque(dynamics, without, VelocityVector::Zero());
   // What the model does there without the force is what the force undoes.
-  out.acceleration =
-      -dynamics.derivative(out.x, out.torque, Vector3::Zero()).tail<kVelocityDim>();
+  out.acceleration = -dynamics.derivative(out.x, out.torque, Vector3::Zero()).tail<kVelocityDim>();
   out.acts = out.acceleration.allFinite() && out.torque.allFinite();
   return out.acts;
 }

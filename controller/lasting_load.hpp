@@ -8,10 +8,10 @@ namespace ballbot {
 /// the motion near there.
 struct LastingLoad {
   bool acts = false;
-  StateVector x = StateVector::Zero();        ///< at rest, leaned so that it stays
-  JointVector torque = JointVector::Zero();   ///< that holds it there [N m]
-  JointVector shift = JointVector::Zero();    ///< of the torque, by the force, in the same pose but
-                                              ///< for the lean [N m]
+  StateVector x = StateVector::Zero();       ///< at rest, leaned so that it stays
+  JointVector torque = JointVector::Zero();  ///< that holds it there [N m]
+  JointVector shift = JointVector::Zero();   ///< of the torque, by the force, in the same pose but
+                                             ///< for the lean [N m]
   VelocityVector acceleration = VelocityVector::Zero();  ///< by the force, taken as constant
 };
 

@@ -42,8 +42,9 @@ struct OffsetFree {
                  "force sideways on the hand from which on it touches something, and nothing is "
                  "learned"),
              touch_N, {0.1, 1e3});
-    v.number(may("hand_mass_limit_kg", "mass in the hand, unknown before, that is counted on at most"),
-             hand_mass_limit_kg, {0, 100});
+    v.number(
+        may("hand_mass_limit_kg", "mass in the hand, unknown before, that is counted on at most"),
+        hand_mass_limit_kg, {0, 100});
     v.number(may("force_limit_N", "force along the floor that is counted on at most"),
              force_limit_N, {0, 1e3});
     v.number(may("moment_limit_Nm", "moment about the ball's centre that is counted on at most"),

@@ -47,7 +47,9 @@ class RobotSensing {
       visit(self.wheels_refused);
     }
   };
-  State state() const { return {estimator_->saveState(), contact_force_, lasting_, wheels_refused_}; }
+  State state() const {
+    return {estimator_->saveState(), contact_force_, lasting_, wheels_refused_};
+  }
   /// @throw InputError if the estimator refuses its part; nothing has changed then.
   void restore(const State& state);
 

@@ -8,8 +8,9 @@
 namespace ballbot {
 
 void Slope::describe(ConfigVisitor& v) {
-  v.number(may("slope_deg", "angle of the floor against the horizontal; the world's axes are the "
-                            "floor's"),
+  v.number(may("slope_deg",
+               "angle of the floor against the horizontal; the world's axes are the "
+               "floor's"),
            angle, {-20, 20}, kRadPerDeg);
   v.number(may("slope_heading_deg", "direction in which a sloping floor falls, from x"), heading,
            {-180, 180}, kRadPerDeg);
@@ -17,8 +18,7 @@ void Slope::describe(ConfigVisitor& v) {
 
 Vector3 Slope::gravity_W(double gravity) const {
   const double along = std::sin(angle);
-  return gravity *
-         Vector3(along * std::cos(heading), along * std::sin(heading), -std::cos(angle));
+  return gravity * Vector3(along * std::cos(heading), along * std::sin(heading), -std::cos(angle));
 }
 
 SlopeForces::SlopeForces(const RobotParameters& robot, const Slope& slope)

@@ -115,7 +115,7 @@ TEST(LastingForce, AMassInTheHandIsLearnedBeforeTheRest) {
   hang(lasting, now, 0.4, 2);
   EXPECT_EQ(lasting.forces().hand_mass, 0);
   EXPECT_FALSE(lasting.handKnown());
-  hang(lasting, now, 0.6, 2);
+  hang(lasting, now, 0.8, 2);
   EXPECT_GT(lasting.forces().hand_mass, 1);
   EXPECT_FALSE(lasting.learning()) << "the rest waits";
   hang(lasting, now, 4, 2);
