@@ -22,7 +22,10 @@ class BackgroundMpcLaw final : public ControlLaw {
 
   PlanReport plan(SimTime now, const StateVector& x,
                   const JointVector& joint_angle) noexcept override;
-  void setCircumstances(const Circumstances& now) noexcept override { circumstances_ = now; }
+  void setCircumstances(const Circumstances& now) noexcept override {
+    circumstances_ = now;
+    execution_.setCircumstances(now);
+  }
   /// Before the first plan(): then the planner is the solver thread's.
   void setClock(PhaseClock clock) noexcept override { planner_.setClock(clock); }
   void activatePlan() noexcept override;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "controller/lasting_forces.hpp"
 #include "model/limits.hpp"
 #include "model/wheel_flags.hpp"
 
@@ -16,6 +17,7 @@ struct Circumstances {
   /// A force on the robot that acts now, in the rows of nu, and the time over which it fades.
   VelocityVector push = VelocityVector::Zero();  ///< [N, N m]
   double push_lasts = 1;                         ///< [s]
+  LastingForces lasting;                         ///< that the model does not know of
 };
 
 }  // namespace ballbot

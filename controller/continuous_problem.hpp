@@ -25,6 +25,8 @@ class ContinuousProblem final : public ContinuousControlProblem<kMpcStateDim, NU
   /// For a horizon that starts at t0 [s].
   void setHorizon(double t0, const ContactSituation& contact,
                   const GovernedCommands& commands) noexcept;
+  /// Another mass in the hand, from now on [kg]. Free of allocation.
+  void setPayload(double mass) noexcept { dynamics_.setPayload(mass); }
 
   void setTime(double t) noexcept override;
   /// Those of the time that was set.

@@ -43,6 +43,11 @@ void describePush(ConfigVisitor& v, PushBelief& push) {
             [&](ConfigVisitor& in) { push.describe(in); });
 }
 
+void describeOffsetFree(ConfigVisitor& v, OffsetFree& offset_free) {
+  v.section(may("offset_free", "lasting forces that the model does not know of"),
+            [&](ConfigVisitor& in) { offset_free.describe(in); });
+}
+
 /// What is learned has to have room to be learned in.
 void requireRange(const ConfigReader& controller, const FloorBelief& floor) {
   if (!floor.limited || !floor.learned) return;
@@ -103,6 +108,7 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
   describeFloor(reading, out.floor);
   describeWheelLoss(reading, out.wheel_loss);
   describePush(reading, out.push);
+  describeOffsetFree(reading, out.offset_free);
   requireRange(in, out.floor);
   tracker.finish();
   forEachSection([&](const LawSection& section) { in.raw(section.key.name); });
@@ -129,6 +135,8 @@ void describeController(ConfigVisitor& v, const RobotParameters& robot) {
   describeWheelLoss(v, wheel_loss);
   PushBelief push;
   describePush(v, push);
+  OffsetFree offset_free;
+  describeOffsetFree(v, offset_free);
   v.section(must("tracker", "follows the law's plan, at the highest rate"),
             [&](ConfigVisitor& in) { tracker.describe(in); });
   forEachSection([&](const LawSection& section) {

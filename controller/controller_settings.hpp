@@ -6,6 +6,7 @@
 #include "controller/floor_belief.hpp"
 #include "controller/law_settings.hpp"
 #include "controller/lost_wheels.hpp"
+#include "controller/offset_free.hpp"
 #include "controller/pd_tracker.hpp"
 #include "controller/push_belief.hpp"
 
@@ -28,6 +29,7 @@ struct ControllerSettings {
   FloorBelief floor;
   WheelLoss wheel_loss;
   PushBelief push;
+  OffsetFree offset_free;
   std::shared_ptr<const LawSettings> law;
 
   /// Sections of other laws than the chosen one are passed over, so that one file can hold several

@@ -59,6 +59,8 @@ DecoupledLaw::DecoupledLaw(const RobotParameters& robot, const MpcConfig& mpc,
       dynamics_(robot),
       rest_(findEquilibrium(dynamics_, robot.nominal_arm).x),
       schedule_(mpc.schedule),
+      known_payload_(robot.payload_mass),
+      hand_by_nu_(dynamics_.endEffectorJacobian(rest_.head<kPositionDim>()).topRows<3>()),
       inverse_kinematics_(robot, config.inverse_kinematics),
       pid_(config.pid),
       base_(withRigidArm(robot, robot.nominal_arm), baseOnly(mpc)) {
@@ -103,6 +105,22 @@ void DecoupledLaw::planArm(SimTime now, const StateVector& x) noexcept {
   at_set_point.segment<3>(kArm1) = planned_.position;
   planned_.rate = inverse_kinematics_.rates(at_set_point, tasks);
   planned_.gravity = gravityTorque(at_set_point);
+}
+
+void DecoupledLaw::setCircumstances(const Circumstances& now) noexcept {
+  const LastingForces& forces = now.lasting;
+  const double payload = known_payload_ + forces.hand_mass;
+  if (payload != dynamics_.robot().payload_mass) dynamics_.setPayload(payload);
+  // To the base, whose model has no hand, the mass is a weight on the arm at its nominal pose. What
+  // is left at the joints is their integrals' business.
+  Circumstances of_base = now;
+  LastingForces& on_base = of_base.lasting;
+  on_base.hand_mass = 0;
+  const Vector3 weight(0, 0, -forces.hand_mass * dynamics_.robot().gravity);
+  on_base.rest = forces.rest + hand_by_nu_.transpose() * weight;
+  on_base.rest.tail<kArmJointCount>().setZero();
+  of_base.push.tail<kArmJointCount>().setZero();
+  base_.setCircumstances(of_base);
 }
 
 void DecoupledLaw::activatePlan() noexcept {

@@ -41,11 +41,7 @@ class DecoupledLaw final : public ControlLaw {
 
   PlanReport plan(SimTime now, const StateVector& x,
                   const JointVector& joint_angle) noexcept override;
-  void setCircumstances(const Circumstances& now) noexcept override {
-    Circumstances of_base = now;
-    of_base.push.tail<kArmJointCount>().setZero();  // its integral takes care of the arm's
-    base_.setCircumstances(of_base);
-  }
+  void setCircumstances(const Circumstances& now) noexcept override;
   void activatePlan() noexcept override;
   void sample(SimTime now, PolicySample& out) const noexcept override;
   void commanded(SimTime now, SimDuration period, const JointVector& torque) noexcept override;
@@ -83,6 +79,8 @@ class DecoupledLaw final : public ControlLaw {
   /// Of the robot with its arm in the nominal pose, which is all the base knows.
   StateVector rest_;
   std::shared_ptr<const TaskSchedule> schedule_;
+  double known_payload_;                               ///< [kg]
+  Eigen::Matrix<double, 3, kVelocityDim> hand_by_nu_;  ///< v_WE_W by nu, at rest_
   ArmInverseKinematics inverse_kinematics_;
   ArmPidConfig pid_;
   MpcLaw base_;

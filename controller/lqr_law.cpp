@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "controller/lasting_load.hpp"
 #include "controller/reference_limits.hpp"
 #include "core/config_visitor.hpp"
 #include "core/state_visitors.hpp"
@@ -49,7 +50,8 @@ LqrLawConfig LqrLawConfig::read(ConfigReader& in, const RobotParameters& robot) 
 LqrLaw::LqrLaw(const RobotParameters& robot, const LqrLawConfig& config)
     : config_(config),
       dynamics_(robot),
-      solution_(designLqr(dynamics_, config.set_point.arm, config.weights)) {
+      solution_(designLqr(dynamics_, config.set_point.arm, config.weights)),
+      known_payload_(robot.payload_mass) {
   StateVector at_set_point = solution_.equilibrium.x;
   at_set_point.segment<2>(kBallX) = config_.set_point.ball_position;
   at_set_point[kYaw] = config_.set_point.yaw;
@@ -73,6 +75,13 @@ LqrLaw::Plan LqrLaw::planFor(SimTime now, const StateVector& x,
                                    config_.yaw_error_limit);
 
   p.torque = solution_.equilibrium.tau;
+  LastingLoad load;
+  StateVector at = p.x;
+  at[kYaw] = x[kYaw];
+  if (!lasting_.none() && findLastingLoad(dynamics_, at, lasting_.rest, load)) {
+    p.x.segment<2>(kPitch) = load.x.segment<2>(kPitch);
+    p.torque = load.torque;
+  }
   p.feedback = gainAtYaw(solution_.K, x[kYaw]);
 
   p.joint_position.head<kWheelCount>() = joint_angle.head<kWheelCount>();
@@ -80,6 +89,12 @@ LqrLaw::Plan LqrLaw::planFor(SimTime now, const StateVector& x,
   p.joint_velocity = dynamics_.selectionMatrix(x.head<kPositionDim>()) * x.tail<kVelocityDim>();
   p.joint_velocity.tail<kArmJointCount>().setZero();
   return plan;
+}
+
+void LqrLaw::setCircumstances(const Circumstances& now) noexcept {
+  lasting_ = now.lasting;
+  const double payload = known_payload_ + lasting_.hand_mass;
+  if (payload != dynamics_.robot().payload_mass) dynamics_.setPayload(payload);
 }
 
 PlanReport LqrLaw::plan(SimTime now, const StateVector& x,

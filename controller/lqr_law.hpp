@@ -32,6 +32,7 @@ class LqrLaw final : public ControlLaw {
 
   PlanReport plan(SimTime now, const StateVector& x,
                   const JointVector& joint_angle) noexcept override;
+  void setCircumstances(const Circumstances& now) noexcept override;
   void activatePlan() noexcept override { active_ = planned_; }
   void sample(SimTime now, PolicySample& out) const noexcept override;
   void commanded(SimTime, SimDuration, const JointVector&) noexcept override {}
@@ -74,6 +75,8 @@ class LqrLaw final : public ControlLaw {
   LqrLawConfig config_;
   ReducedDynamics dynamics_;
   LqrSolution solution_;
+  double known_payload_;  ///< [kg]
+  LastingForces lasting_;
   Plan planned_, active_;
 };
 

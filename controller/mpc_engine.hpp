@@ -1,5 +1,6 @@
 #pragma once
 
+#include "controller/lasting_load.hpp"
 #include "controller/mpc_policy.hpp"
 #include "controller/pushed_problem.hpp"
 #include "model/wheel_flags.hpp"
@@ -33,6 +34,12 @@ class MpcEngine {
   /// Wheels whose torque moves nothing.
   virtual void setLostWheels(const WheelFlags& lost) noexcept = 0;
   virtual void setPush(const Push& push) noexcept = 0;
+
+  /// What acts on the robot all along the plans that follow.
+  virtual void setLoad(const LastingLoad& load) noexcept = 0;
+
+  /// The mass in the robot's hand [kg].
+  virtual void setPayload(double mass) noexcept = 0;
 
   virtual void setClock(PhaseClock clock) noexcept = 0;
 

@@ -27,6 +27,8 @@ class MpcExecution {
   void commanded(SimDuration period, const JointVector& torque) noexcept;
   const Vector3& filterState() const noexcept { return xf_; }  ///< [N m]
 
+  void setCircumstances(const Circumstances& now) noexcept { lqr_.setCircumstances(now); }
+
   StateBlob saveStandIn() const { return lqr_.saveState(); }
   void restore(const Vector3& filter_state, const StateBlob& stand_in);
 

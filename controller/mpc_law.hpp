@@ -18,6 +18,7 @@ class MpcLaw final : public ControlLaw {
                   const JointVector& joint_angle) noexcept override;
   void setCircumstances(const Circumstances& now) noexcept override {
     planner_.setCircumstances(now);
+    execution_.setCircumstances(now);
   }
   void setClock(PhaseClock clock) noexcept override { planner_.setClock(clock); }
   void activatePlan() noexcept override;

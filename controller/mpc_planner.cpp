@@ -164,6 +164,7 @@ MpcPlanner::MpcPlanner(const RobotParameters& robot, const MpcConfig& config)
       dynamics_(robot),
       supervisor_(config.contact_supervision),
       governor_(robot, config.command_limits),
+      known_payload_(robot.payload_mass),
       engine_(makeEngine(robot, config)),
       seed_(engine_->emptyPolicy()) {
   governor_.governAdded(config.schedule->added);
@@ -208,6 +209,17 @@ ContactReport MpcPlanner::superviseContact(SimTime now, const Vector3& p_WE) noe
   return report;
 }
 
+void MpcPlanner::takeLastingForces(const StateVector& x) noexcept {
+  const double payload = known_payload_ + lasting_.hand_mass;
+  if (payload != dynamics_.robot().payload_mass) {
+    dynamics_.setPayload(payload);
+    engine_->setPayload(payload);
+  }
+  LastingLoad load;
+  if (!lasting_.rest.isZero(0)) findLastingLoad(dynamics_, x, lasting_.rest, load);
+  engine_->setLoad(load);
+}
+
 PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf,
                             const JointVector& joint_angle, const PolicySample& stand_in,
                             const MpcPolicy& previous, MpcPolicy& out) noexcept {
@@ -226,6 +238,7 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
   if (!config_.contact_forces) {
     engine_->setPush(Push::on(dynamics_, x.head<kPositionDim>(), push_, push_lasts_));
   }
+  takeLastingForces(x);
   const bool fresh = previous.valid() && now - previous.stamp() <= config_.fallback_after;
   if (!fresh) seedFrom(stand_in, now, x[kYaw]);
   MpcState x0;

@@ -72,6 +72,7 @@ class MpcPlanner {
     engine_->setLostWheels(now.lost_wheels);
     push_ = now.push;
     push_lasts_ = now.push_lasts;
+    lasting_ = now.lasting;
   }
 
   /// What the planner makes of the contact; part of the state to be saved.
@@ -88,6 +89,8 @@ class MpcPlanner {
  private:
   /// A guess where there is no plan: the LQR's policy, its gains those for the engine's steps.
   void seedFrom(const PolicySample& stand_in, SimTime now, double yaw) noexcept;
+  /// Tells the engine what lasting forces do.
+  void takeLastingForces(const StateVector& x) noexcept;
   /// Tells the engine what to count on at the end-effector.
   ContactReport superviseContact(SimTime now, const Vector3& p_WE) noexcept;
 
@@ -98,6 +101,8 @@ class MpcPlanner {
   Vector3 contact_force_W_ = Vector3::Zero();
   VelocityVector push_ = VelocityVector::Zero();
   double push_lasts_ = 1;
+  double known_payload_;  ///< [kg]
+  LastingForces lasting_;
   std::unique_ptr<MpcEngine> engine_;
   std::vector<FeedbackGain> seed_gains_;  ///< per control of the seed, at zero yaw
   MpcPolicy seed_;

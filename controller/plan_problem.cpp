@@ -11,6 +11,7 @@ PlanProblem<NU>::PlanProblem(const RobotParameters& robot, const Constraints& co
       whole_body_(robot, constraints, shaping, terminal, knots),
       floor_limited_(robot, constraints, knots, whole_body_),
       lost_wheel_(whole_body_),
+      disturbed_(shaping, knots, whole_body_),
       pushed_(knots, whole_body_) {}
 
 template <int NU>
@@ -22,6 +23,10 @@ const typename PlanProblem<NU>::Base& PlanProblem<NU>::at(
   if (lost_wheel_.isLost()) {
     for (int k = 0; k <= whole_body_.stages(); ++k) giveUpYaw(whole_body_.tasks(k));
     problem = &lost_wheel_;
+  }
+  if (disturbed_.isLoaded()) {
+    disturbed_.setInner(*problem);
+    problem = &disturbed_;
   }
   if (pushed_.isPushed()) {
     pushed_.setInner(*problem);
@@ -39,6 +44,7 @@ ContinuousPlanProblem<NU>::ContinuousPlanProblem(const RobotParameters& robot,
     : whole_body_(robot, constraints, shaping, terminal, std::move(schedule)),
       floor_limited_(robot, constraints, whole_body_),
       lost_wheel_(whole_body_),
+      disturbed_(shaping, whole_body_),
       pushed_(whole_body_) {}
 
 template <int NU>
@@ -48,6 +54,10 @@ typename ContinuousPlanProblem<NU>::Base& ContinuousPlanProblem<NU>::at(
   Base* problem = &whole_body_;
   if (floor_limited_.isLimited()) problem = &floor_limited_;
   if (lost_wheel_.isLost()) problem = &lost_wheel_;
+  if (disturbed_.isLoaded()) {
+    disturbed_.setInner(*problem);
+    problem = &disturbed_;
+  }
   if (pushed_.isPushed()) {
     pushed_.setInner(*problem);
     problem = &pushed_;

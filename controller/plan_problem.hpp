@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "controller/circumstances.hpp"
+#include "controller/disturbed_problem.hpp"
 #include "controller/floor_limited_problem.hpp"
 #include "controller/lost_wheel_problem.hpp"
 #include "controller/pushed_problem.hpp"
@@ -12,8 +13,8 @@
 namespace ballbot {
 
 /// The whole-body problem, and what is made of it by what a plan counts on: the floor's hold, a
-/// lost wheel, a push. Chooses the one to be solved. Compiled apart from the solver, whose last
-/// bits would change with it.
+/// lost wheel, a force that lasts, a push. Chooses the one to be solved. Compiled apart from the
+/// solver, whose last bits would change with it.
 template <int NU>
 class PlanProblem {
  public:
@@ -26,6 +27,8 @@ class PlanProblem {
   int stages() const noexcept { return whole_body_.stages(); }
   void setFloorHeld(double torque) noexcept { floor_limited_.setHeld(torque); }
   void setLostWheels(const WheelFlags& lost) noexcept { lost_wheel_.setLost(lost); }
+  void setLoad(const LastingLoad& load) noexcept { disturbed_.setLoad(load); }
+  void setPayload(double mass) noexcept { whole_body_.setPayload(mass); }
   void setPush(const Push& push) noexcept { pushed_.setPush(push); }
 
   /// That of a horizon which starts at t0 [s]; good until the next call. Free of allocation.
@@ -37,7 +40,8 @@ class PlanProblem {
   WholeBodyProblem<NU> whole_body_;
   FloorLimitedProblem<NU> floor_limited_;  ///< the same on a floor that does not hold everything
   LostWheelProblem<NU> lost_wheel_;        ///< the same without a wheel, on any floor
-  PushedProblem<NU> pushed_;               ///< any of them, pushed
+  DisturbedProblem<NU> disturbed_;         ///< any of them, under a force that lasts
+  PushedProblem<NU> pushed_;               ///< and any of these, pushed
 };
 
 /// The same in continuous time.
@@ -52,6 +56,8 @@ class ContinuousPlanProblem {
 
   void setFloorHeld(double torque) noexcept { floor_limited_.setHeld(torque); }
   void setLostWheels(const WheelFlags& lost) noexcept { lost_wheel_.setLost(lost); }
+  void setLoad(const LastingLoad& load) noexcept { disturbed_.setLoad(load); }
+  void setPayload(double mass) noexcept { whole_body_.setPayload(mass); }
   void setPush(const Push& push) noexcept { pushed_.setPush(push); }
 
   /// As PlanProblem::at.
@@ -61,6 +67,7 @@ class ContinuousPlanProblem {
   ContinuousProblem<NU> whole_body_;
   FloorLimitedContinuousProblem<NU> floor_limited_;
   LostWheelContinuousProblem<NU> lost_wheel_;
+  DisturbedContinuousProblem<NU> disturbed_;
   PushedContinuousProblem<NU> pushed_;
 };
 

@@ -33,6 +33,8 @@ class WholeBodyProblem final : public OptimalControlProblem<kMpcStateDim, NU, Co
   /// Tasks for a horizon that starts at t0 [s]. Free of allocation.
   void setTasks(const TaskSchedule& schedule, double t0, const ContactSituation& contact = {},
                 const GovernedCommands& commands = {}) noexcept;
+  /// Another mass in the hand, from now on [kg]. Free of allocation.
+  void setPayload(double mass) noexcept { dynamics_.setPayload(mass); }
   /// For tests and special uses: the tasks of one knot.
   Tasks& tasks(int k) { return tasks_[k]; }
 

@@ -52,6 +52,13 @@ BalanceAiding::BalanceAiding(const RobotParameters& robot, const BalanceSettings
       settings_(settings),
       ball_height_moment_(robot.totalMass() * robot.ball.radius) {}
 
+void BalanceAiding::setHand(double mass, bool known) noexcept {
+  hand_known_ = known;
+  if (mass == dynamics_.robot().payload_mass) return;
+  dynamics_.setPayload(mass);
+  ball_height_moment_ = dynamics_.robot().totalMass() * dynamics_.robot().ball.radius;
+}
+
 void BalanceAiding::look(const StateVector& x) noexcept {
   const GravityAboutContact gravity = gravityAboutContact(dynamics_, x.head<kPositionDim>());
   moment_ = gravity.moment_W;
@@ -62,6 +69,10 @@ template <int kDim>
 void BalanceAiding::step(double h, SimTime time, const JointHistory& joints,
                          BasicInformationFilter<kDim>& filter) noexcept {
   if (!settings_.enabled) return;
+  if (!hand_known_) {
+    interrupt();
+    return;
+  }
   StateVector x = wholeBodyState(filter.state(), time, joints);
   const Eigen::Vector2d moment_before = moment_;
   const double height_before = height_moment_;

@@ -39,6 +39,9 @@ class BalanceAiding {
   template <int kDim>
   void step(double h, SimTime time, const JointHistory& joints,
             BasicInformationFilter<kDim>& filter) noexcept;
+  /// What hangs in the hand: mass [kg], and whether that is all of it. While it is not, a tilt and
+  /// a weight are one to this, and the tilt is left alone.
+  void setHand(double mass, bool known) noexcept;
   /// The last interval was not measured: the window begins anew.
   void interrupt() noexcept { begun_ = false; }
 
@@ -67,6 +70,7 @@ class BalanceAiding {
   ReducedDynamics dynamics_;
   BalanceSettings settings_;
   double ball_height_moment_;  ///< total mass times radius of the ball [kg m]
+  bool hand_known_ = true;
   bool begun_ = false;
   bool pushed_ = false;                                  ///< in the last window
   double elapsed_ = 0;                                   ///< of the window [s]

@@ -31,9 +31,15 @@ class ContactForceObserver {
   /// @param torque  measured on the joints at `now` [N m]
   void update(SimTime now, const StateVector& x, const JointVector& torque) noexcept;
 
+  /// A mass in the hand that is counted on from now on [kg].
+  void setPayload(double mass) noexcept {
+    if (mass != dynamics_.robot().payload_mass) dynamics_.setPayload(mass);
+  }
+
   /// On the end-effector, in W [N]; zero before the second update.
   const Vector3& force() const noexcept { return force_W_; }
-  /// r: all that the model and the measured torques do not explain, in the rows of nu [N, N m].
+
+  /// r: what the model does not explain, in the rows of nu [N, N m]; zero before the second update.
   const VelocityVector& residual() const noexcept { return residual_; }
 
   template <typename Self, typename Visitor>

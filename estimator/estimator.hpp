@@ -45,6 +45,10 @@ class Estimator {
   /// Nothing where an estimator keeps no account of its uncertainty, or has not begun to.
   virtual std::optional<SelfAssessment> selfAssessment() const noexcept { return std::nullopt; }
 
+  /// What hangs in the hand, by whoever feels it there: mass [kg], and whether that is all of it.
+  /// Until it is, an estimator that takes the tilt from the way the robot falls leaves it alone.
+  virtual void setHand(double mass, bool known) noexcept { (void)mass, (void)known; }
+
   /// What was not believed so far, and why.
   virtual RejectionCounts rejections() const noexcept { return {}; }
 

@@ -30,6 +30,7 @@ class BasicTwoStateFilter final : public Estimator {
   StateEstimate estimate(SimTime now) const noexcept override;
   bool knowsSpin() const noexcept override { return kSpins; }
   std::optional<SelfAssessment> selfAssessment() const noexcept override;
+  void setHand(double mass, bool known) noexcept override { balance_.setHand(mass, known); }
   RejectionCounts rejections() const noexcept override { return counts_; }
   StateBlob saveState() const override;
   void restoreState(const StateBlob& blob) override;

@@ -22,6 +22,24 @@ void withoutLost(const WheelFlags& lost, ActuatorCommand& command) noexcept {
   }
 }
 
+/// Names of what RobotController::estimate() puts beside an estimate.
+void addLastingForce(std::vector<AddedSignal>& list) {
+  list.push_back({"lasting_hand_mass", "kg", "mass in the hand that the model does not know of"});
+  for (const char* axis : {"x", "y"}) {
+    list.push_back({std::string("lasting_force_") + axis, "N",
+                    "lasting force along the floor that the model does not know of"});
+  }
+  for (const char* axis : {"x", "y", "z"}) {
+    list.push_back({std::string("lasting_moment_") + axis, "N m",
+                    "the same, moment about the ball's centre in the base's axes"});
+  }
+  for (const char* joint : {"1", "2", "3"}) {
+    list.push_back({std::string("lasting_arm_torque_") + joint, "N m",
+                    "the same, torque in a joint of the arm"});
+  }
+  list.push_back({"lasting_force_learned", "", "1 while it is learned, 0 while it is kept"});
+}
+
 }  // namespace
 
 RobotController::RobotController(const RunConfig& config, EventCalendar& calendar)
@@ -43,6 +61,7 @@ RobotController::RobotController(const RunConfig& config, EventCalendar& calenda
         {"sigma_ball_spin_rate", "rad/s", "one standard deviation of ball_spin_rate"},
         {"floor_spin_torque_held", "N m", "what the floor is counted on to hold of that spin"}};
   }
+  if (config.controller.offset_free.enabled) addLastingForce(added_[AddedTo::kEstimate].list);
   if (config.controller.push.counted_on) {
     estimated.push_back({"push_force_x", "N", "push that plans count on, along x of W"});
     estimated.push_back({"push_force_y", "N", "push that plans count on, along y of W"});
@@ -93,6 +112,12 @@ void RobotController::estimate(SimTime now, const SensorFrame& sensors, ControlO
   if (sensing_.estimator().knowsSpin()) {
     for (const double v : {e.spin_rate, e.spin_rate_sigma, state_.floor.held()}) *value++ = v;
   }
+  if (sensing_.lasting().enabled()) {
+    const LastingForces& forces = sensing_.lasting().forces();
+    *value++ = forces.hand_mass;
+    value = std::copy(forces.rest.data(), forces.rest.data() + forces.rest.size(), value);
+    *value++ = sensing_.lasting().learning() ? 1 : 0;
+  }
   if (state_.push.settings().counted_on) {
     *value++ = state_.push.force()[kBallVx];
     *value++ = state_.push.force()[kBallVy];
@@ -120,7 +145,8 @@ void RobotController::followPush(SimTime now) noexcept {
 
 void RobotController::tellLaw() noexcept {
   law_->setCircumstances({sensing_.contactForce(), state_.floor.held(), state_.wheels.lost(),
-                          state_.push.force(), state_.push.settings().lasts});
+                          state_.push.force(), state_.push.settings().lasts,
+                          sensing_.lasting().forces()});
 }
 
 void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutput& out) {

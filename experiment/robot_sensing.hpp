@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "controller/lasting_force.hpp"
 #include "core/state_blob.hpp"
 #include "estimator/contact_force_observer.hpp"
 #include "estimator/estimator.hpp"
@@ -26,9 +27,13 @@ class RobotSensing {
   StateEstimate estimate(SimTime now) const noexcept { return estimator_->estimate(now); }
   /// Environment on the end-effector, in W [N]; zero while held.
   const Vector3& contactForce() const noexcept { return contact_force_.force(); }
-  /// Of the forces on the robot, what the model does not explain, in the rows of nu; zero while
-  /// held.
-  const VelocityVector& unexplainedForce() const noexcept { return contact_force_.residual(); }
+  /// Of the forces on the robot, what neither the model nor what lasts explains, in the rows of nu;
+  /// zero while held.
+  VelocityVector unexplainedForce() const noexcept {
+    return contact_force_.residual() - lasting_.forces().rest;
+  }
+  /// What lasts of that which the model does not explain; none while held.
+  const LastingForce& lasting() const noexcept { return lasting_; }
   /// As it goes on record; the tick is the recorder's.
   StateEstimate write(SimTime now, EstimateFrame& out) const noexcept;
 
@@ -36,21 +41,33 @@ class RobotSensing {
   struct State {
     StateBlob estimator;
     ContactForceObserver contact_force;
+    LastingForce lasting;
+    std::int64_t wheels_refused;
 
     template <typename Self, typename Visitor>
     static void visitState(Self& self, Visitor& visit) {
       visit(self.estimator);
       visit(self.contact_force);
+      visit(self.lasting);
+      visit(self.wheels_refused);
     }
   };
-  State state() const { return {estimator_->saveState(), contact_force_}; }
+  State state() const {
+    return {estimator_->saveState(), contact_force_, lasting_, wheels_refused_};
+  }
   /// @throw InputError if the estimator refuses its part; nothing has changed then.
   void restore(const State& state);
 
  private:
+  void learnLasting(const SensorFrame& frame, const StateEstimate& e) noexcept;
+  /// Estimator and observer count on the mass that is learned.
+  void tellHand() noexcept;
+
   SimTime release_;
   std::unique_ptr<Estimator> estimator_;
   ContactForceObserver contact_force_;
+  LastingForce lasting_;
+  std::int64_t wheels_refused_ = 0;  ///< intervals of them, so far
 };
 
 }  // namespace ballbot

@@ -18,7 +18,7 @@ namespace ballbot {
 using Pass = NewtonEuler<double>;
 
 ReducedDynamics::ReducedDynamics(const RobotParameters& robot)
-    : robot_(robot), constants_(std::make_shared<const DynamicsConstants>(robot)) {}
+    : robot_(robot), constants_(std::make_shared<DynamicsConstants>(robot)) {}
 
 MassMatrix ReducedDynamics::massMatrix(const PositionVector& q) const {
   return Pass(*constants_, q, VelocityVector::Zero()).massMatrix();

@@ -30,6 +30,11 @@ class ReducedDynamics {
   explicit ReducedDynamics(const RobotParameters& robot);
   const RobotParameters& robot() const { return robot_; }
 
+  /// Another mass in the hand from now on [kg], for this and for copies that were made of it. Not
+  /// of a robot with a rigid arm, and not while another thread computes with it. Free of
+  /// allocation.
+  void setPayload(double mass) noexcept;
+
   MassMatrix massMatrix(const PositionVector& q) const;
   /// Gravity, Coriolis and centrifugal terms [N, N m].
   VelocityVector nonlinearEffects(const PositionVector& q, const VelocityVector& nu) const;
@@ -97,7 +102,7 @@ class ReducedDynamics {
 
  private:
   RobotParameters robot_;
-  std::shared_ptr<const DynamicsConstants> constants_;
+  std::shared_ptr<DynamicsConstants> constants_;
 };
 
 /// Pitch and roll at which the robot stands still with the arm at `arm` and no force on it, and

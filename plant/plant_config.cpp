@@ -48,6 +48,7 @@ void describePlantSection(ConfigVisitor& v, PlantConfig& c, FaultKeys fault_keys
 void describeEnvironmentSection(ConfigVisitor& v, PlantConfig& c) {
   describePushes(v, c.pushes, c.robot);
   c.surroundings.describe(v);
+  c.slope.describe(v);
   v.number(may("payload_kg", "point mass at the end-effector; instead of robot.payload_mass_kg"),
            c.robot.payload_mass, {0, 100});
 }

@@ -12,6 +12,7 @@
 #include "plant/motion_capture.hpp"
 #include "plant/multibody.hpp"
 #include "plant/sensors.hpp"
+#include "plant/slope.hpp"
 #include "plant/spin_friction.hpp"
 #include "plant/surroundings.hpp"
 
@@ -77,6 +78,7 @@ struct PlantConfig {
   std::vector<Push> pushes;
   std::vector<Fault> faults;
   SurroundingsParameters surroundings;
+  Slope slope;
   std::optional<MotionCaptureParameters> motion_capture;
   AddedSensorList added_sensors;
   std::uint64_t seed = 1;

@@ -30,8 +30,9 @@ PlantDynamics::PlantDynamics(const PlantConfig& config)
     : fidelity_(config.fidelity),
       parameters_(config.actuators),
       spin_friction_(config.spin_friction),
-      gravity_(config.robot.gravity),
+      gravity_W_(config.slope.gravity_W(config.robot.gravity)),
       weight_(config.robot.gravity * config.robot.totalMass()),
+      slope_(config.robot, config.slope),
       p_BI_B_(config.robot.p_BI_B),
       p_A3E_(config.robot.p_A3E),
       surroundings_(config.surroundings),
@@ -70,7 +71,8 @@ Touch PlantDynamics::touch(const double* y) const {
 }
 
 double PlantDynamics::energy(const double* y) const {
-  return multibody_->energy() + surroundings_.energy(surroundingsState(y), endEffector());
+  return multibody_->energy() + slope_.energy(*multibody_) +
+         surroundings_.energy(surroundingsState(y), endEffector());
 }
 
 BallOnFloor PlantDynamics::ballOnFloor() const {
@@ -106,6 +108,7 @@ void PlantDynamics::derivative(double since_tick, const double* y, double* ydot)
   const BaseMotion base = multibody_->base();
   BaseAcceleration acceleration;
   const std::size_t pushes = loads_.forces.size();
+  if (slope_.acts()) slope_.addTo(loads_.forces);
   if (surroundings_.stateDim() > 0) {
     const Vector3 force = surroundings_.derivative(surroundingsState(y), endEffector(),
                                                    ydot + multibody_->stateDim());
@@ -130,7 +133,7 @@ Vector3 PlantDynamics::specificForce(const BaseMotion& base,
   const Vector3 r = base.R_WB * p_BI_B_;
   const Vector3 a = acceleration.a_WK_W + acceleration.alpha_WB_W.cross(r) +
                     base.w_WB_W.cross(base.w_WB_W.cross(r));
-  return base.R_WB.transpose() * (a + gravity_ * Vector3::UnitZ());
+  return base.R_WB.transpose() * (a - gravity_W_);
 }
 
 }  // namespace ballbot

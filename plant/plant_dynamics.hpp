@@ -7,6 +7,7 @@
 #include "plant/multibody.hpp"
 #include "plant/plant_config.hpp"
 #include "plant/series_elastic_actuator.hpp"
+#include "plant/slope.hpp"
 #include "plant/surroundings.hpp"
 
 namespace ballbot {
@@ -81,7 +82,9 @@ class PlantDynamics final : public OdeSystem {
   PlantFidelity fidelity_;
   RobotActuators parameters_;
   SpinFriction spin_friction_;
-  double gravity_, weight_;
+  Vector3 gravity_W_;
+  double weight_;
+  SlopeForces slope_;
   Vector3 p_BI_B_, p_A3E_;
   Surroundings surroundings_;
   std::unique_ptr<Multibody> multibody_;

@@ -1,0 +1,39 @@
+// What the model does not know of and what lasts leaves the ball in its place after ten seconds,
+// where it is learned; and does not, where it is not.
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.hpp"
+
+namespace ballbot {
+namespace {
+
+double finalBallError(const std::string& unknown, bool learned) {
+  const TemporaryFolder folder;
+  const Finished run = runBallbot(
+      {"run", scenarioPath("balance"), "--quiet", "--json", "--no-report", "--in-process", "--out",
+       folder / "run", "--set", "duration_s=12", "--set", unknown, "--set",
+       std::string("controller.offset_free.enabled=") + (learned ? "true" : "false")},
+      600);
+  const auto json = nlohmann::json::parse(run.out, nullptr, false);
+  if (json.is_discarded() || json["fell"].get<bool>()) return 1;
+  return json["final_ball_position_error_m"].get<double>();
+}
+
+TEST(OffsetFree, TwoKilogramsThatNobodyTellsOfLeaveTheBallInItsPlace) {
+  EXPECT_LT(finalBallError("environment.payload_kg=2", true), 0.01);
+  EXPECT_GT(finalBallError("environment.payload_kg=2", false), 0.1);
+}
+
+TEST(OffsetFree, ACentreOfMassThatIsOffLeavesTheBallInItsPlace) {
+  EXPECT_LT(finalBallError("plant.base_com_offset_m=[0.003, 0, 0]", true), 0.01);
+  EXPECT_GT(finalBallError("plant.base_com_offset_m=[0.003, 0, 0]", false), 0.015);
+}
+
+TEST(OffsetFree, ASlopeLeavesTheBallInItsPlace) {
+  EXPECT_LT(finalBallError("environment.slope_deg=2", true), 0.01);
+  EXPECT_GT(finalBallError("environment.slope_deg=2", false), 0.1);
+}
+
+}  // namespace
+}  // namespace ballbot
