@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/angle.hpp"
-#include "tests/model/robot_fixture.hpp"
+#include "support/plant_fixture.hpp"
 
 namespace ballbot {
 namespace {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/config_reader.hpp"
+#include "core/config_visitor.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "core/yaml_file.hpp"
