@@ -26,6 +26,8 @@ bool LostWheels::update(SimTime now, const WheelFlags& refused) noexcept {
     }
     if (lost_[i] && !refused_[i] && now - since_[i] >= settings_.trusted_after) lost_[i] = false;
   }
+  // Several at once are a state that fits nothing: then none is lost, and none was.
+  if (std::count(refused_.begin(), refused_.end(), true) > 1) lost_ = {};
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     if (any() || !refused_[i] || now - since_[i] < settings_.after) continue;
     if (std::count(refused_.begin(), refused_.end(), true) > 1) break;

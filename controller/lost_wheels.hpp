@@ -11,7 +11,7 @@ class ConfigVisitor;
 struct WheelLoss {
   bool counted_out = true;
   /// Refused by the estimator for so long without a break, it slips.
-  SimDuration after = std::chrono::milliseconds(10);
+  SimDuration after = std::chrono::milliseconds(20);
   /// Believed for so long without a break, it grips again: without torque a wheel that slips soon
   /// turns with the ball, and would be trusted too early.
   SimDuration trusted_after = std::chrono::milliseconds(100);

@@ -30,7 +30,7 @@ PlantDynamics::PlantDynamics(const PlantConfig& config)
     : fidelity_(config.fidelity),
       parameters_(config.actuators),
       spin_friction_(config.spin_friction),
-      gravity_W_(config.slope.gravity_W(config.robot.gravity)),
+      gravity_W_(config.slope.gravityInWorld(config.robot.gravity)),
       weight_(config.robot.gravity * config.robot.totalMass()),
       slope_(config.robot, config.slope),
       p_BI_B_(config.robot.p_BI_B),

@@ -16,14 +16,14 @@ void Slope::describe(ConfigVisitor& v) {
            {-180, 180}, kRadPerDeg);
 }
 
-Vector3 Slope::gravity_W(double gravity) const {
+Vector3 Slope::gravityInWorld(double gravity) const {
   const double along = std::sin(angle);
   return gravity * Vector3(along * std::cos(heading), along * std::sin(heading), -std::cos(angle));
 }
 
 SlopeForces::SlopeForces(const RobotParameters& robot, const Slope& slope)
     : acts_(slope.angle != 0) {
-  const Vector3 change = slope.gravity_W(robot.gravity) + robot.gravity * Vector3::UnitZ();
+  const Vector3 change = slope.gravityInWorld(robot.gravity) + robot.gravity * Vector3::UnitZ();
   const auto force = [&](int body, double mass, const Vector3& p) {
     forces_[static_cast<std::size_t>(body)] = {static_cast<BodyIndex>(body), p, mass * change};
   };

@@ -16,7 +16,7 @@ struct Slope {
 
   void describe(ConfigVisitor& v);
   /// In W, for a gravity of that size [m/s^2].
-  Vector3 gravity_W(double gravity) const;
+  Vector3 gravityInWorld(double gravity) const;
 };
 
 /// What a slope changes of the weights of a robot's bodies, as forces on them. Wheels and rotors

@@ -14,11 +14,11 @@ namespace {
 constexpr double kAngle = 5 * kRadPerDeg, kHeading = 40 * kRadPerDeg;
 
 TEST(Slope, GravityKeepsItsSizeAndFallsTowardsTheHeading) {
-  const Vector3 g = Slope{kAngle, kHeading}.gravity_W(9.81);
+  const Vector3 g = Slope{kAngle, kHeading}.gravityInWorld(9.81);
   EXPECT_NEAR(g.norm(), 9.81, 1e-12);
   EXPECT_NEAR(std::acos(-g.z() / g.norm()), kAngle, 1e-9);
   EXPECT_NEAR(std::atan2(g.y(), g.x()), kHeading, 1e-12);
-  EXPECT_EQ(Slope().gravity_W(9.81), Vector3(0, 0, -9.81));
+  EXPECT_EQ(Slope().gravityInWorld(9.81), Vector3(0, 0, -9.81));
 }
 
 TEST(Slope, ItsForcesAreTheChangeOfTheWholeWeight) {
@@ -30,7 +30,7 @@ TEST(Slope, ItsForcesAreTheChangeOfTheWholeWeight) {
   Vector3 sum = Vector3::Zero();
   for (const PointForce& f : forces) sum += f.force_W;
   const Vector3 level(0, 0, -robot.gravity);
-  EXPECT_LT((sum - robot.totalMass() * (slope.gravity_W(robot.gravity) - level)).norm(), 1e-9);
+  EXPECT_LT((sum - robot.totalMass() * (slope.gravityInWorld(robot.gravity) - level)).norm(), 1e-9);
   EXPECT_FALSE(SlopeForces(robot, Slope()).acts());
 }
 
