@@ -63,7 +63,9 @@ void mpcIteration(benchmark::State& state, MpcConfig::Engine kind, double length
   MpcConfig config = everythingOn(robot, length, stages, threads);
   config.engine = kind;
   const std::unique_ptr<MpcEngine> engine = makeEngine(robot, config);
-  engine->setFloorHeld(held);
+  PlanConditions conditions;
+  conditions.floor_held = held;
+  engine->setConditions(conditions);
   const ReducedDynamics dynamics(robot);
   const Equilibrium rest = findEquilibrium(dynamics, robot.nominal_arm);
   MpcState x0;

@@ -42,7 +42,7 @@ template <int NU>
 MpcSolveReport ContinuousEngine<NU>::solve(SimTime now, const MpcState& x0, const MpcPolicy& guess,
                                            int iterations, MpcPolicy& out) noexcept {
   typename ContinuousPlanProblem<NU>::Base& problem =
-      problem_.at(toSeconds(now), contact_, commands_);
+      problem_.at(toSeconds(now), contact_, commands_, conditions_);
   const double age = toSeconds(now - guess.stamp());
   const MpcSolveReport report = solver_.solve(problem, x0, PolicyGuess<NU>(guess), age, iterations);
   if (report.ok()) setPolicy(solver_.solution(), now, out);

@@ -29,7 +29,8 @@ MpcPolicy DiscreteEngine<NU>::emptyPolicy() const {
 template <int NU>
 MpcSolveReport DiscreteEngine<NU>::solve(SimTime now, const MpcState& x0, const MpcPolicy& guess,
                                          int iterations, MpcPolicy& out) noexcept {
-  const typename PlanProblem<NU>::Base& problem = problem_.at(toSeconds(now), contact_, commands_);
+  const typename PlanProblem<NU>::Base& problem =
+      problem_.at(toSeconds(now), contact_, commands_, conditions_);
   const double age = toSeconds(now - guess.stamp());
   const MpcSolveReport report = solver_.solve(problem, x0, PolicyGuess<NU>(guess), age, iterations);
   if (report.ok()) setPolicy(solver_.solution(), now, out);

@@ -22,11 +22,6 @@ class DiscreteEngine final : public MpcEngine {
   MpcPolicy emptyPolicy() const override;
   MpcSolveReport solve(SimTime now, const MpcState& x0, const MpcPolicy& guess, int iterations,
                        MpcPolicy& out) noexcept override;
-  void setFloorHeld(double torque) noexcept override { problem_.setFloorHeld(torque); }
-  void setLostWheels(const WheelFlags& lost) noexcept override { problem_.setLostWheels(lost); }
-  void setPush(const Push& push) noexcept override { problem_.setPush(push); }
-  void setLoad(const LastingLoad& load) noexcept override { problem_.setLoad(load); }
-  void setPayload(double mass) noexcept override { problem_.setPayload(mass); }
   void setClock(PhaseClock clock) noexcept override { solver_.setClock(clock); }
   double shift() const noexcept override { return solver_.shift(); }
   void setShift(double shift) noexcept override { solver_.setShift(shift); }

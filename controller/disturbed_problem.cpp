@@ -1,6 +1,6 @@
 #include "controller/disturbed_problem.hpp"
 
-#include "controller/euler_rates.hpp"
+#include "controller/added_acceleration.hpp"
 
 namespace ballbot {
 namespace {
@@ -13,7 +13,7 @@ template <int NU>
 DisturbedProblem<NU>::DisturbedProblem(const FrequencyShaping& shaping,
                                        const std::vector<double>& knots,
                                        WholeBodyProblem<NU>& whole_body)
-    : whole_body_(whole_body), inner_(&whole_body) {
+    : WrappedProblem<NU>(whole_body), whole_body_(whole_body) {
   for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
     steps_.emplace_back(shaping, knots[k + 1] - knots[k]);
   }
@@ -21,14 +21,8 @@ DisturbedProblem<NU>::DisturbedProblem(const FrequencyShaping& shaping,
 
 template <int NU>
 void DisturbedProblem<NU>::step(int k, const X& x, const U& u, X& next) const noexcept {
-  inner_->step(k, x, u, next);
-  // nu+ has H a more, and q+ = q + H T(q_m) (nu + nu+) / 2.
-  const double H = steps_[k].H;
-  const PositionVector q = x.template head<kPositionDim>();
-  const VelocityVector nu = x.template segment<kVelocityDim>(kNu);
-  const PositionVector mid = q + 0.5 * H * EulerRates(q).rate(nu);
-  next.template segment<kVelocityDim>(kNu) += H * load_.acceleration;
-  next.template head<kPositionDim>() += 0.5 * H * H * EulerRates(mid).rate(load_.acceleration);
+  this->inner().step(k, x, u, next);
+  addAcceleration(steps_[k].H, x, load_.acceleration, next);
 }
 
 template <int NU>
@@ -49,14 +43,14 @@ void DisturbedProblem<NU>::addTorqueCost(int k, const X& x, const U& u,
 
 template <int NU>
 void DisturbedProblem<NU>::addCost(int k, const X& x, const U& u, CostTerms& terms) const noexcept {
-  inner_->addCost(k, x, u, terms);
+  this->inner().addCost(k, x, u, terms);
   addTorqueCost(k, x, u, terms);
 }
 
 template <int NU>
 void DisturbedProblem<NU>::approximate(int first, int count, const X* x, const U* u,
                                        CostTerms* terms, Stage* lq) const noexcept {
-  inner_->approximate(first, count, x, u, terms, lq);
+  this->inner().approximate(first, count, x, u, terms, lq);
   // The load's acceleration is constant: it moves A by H^2 / 2 dT/dq a alone, which is left out.
   for (int i = 0; i < count; ++i) {
     const int k = first + i;
@@ -78,14 +72,14 @@ void DisturbedProblem<NU>::approximate(int first, int count, const X* x, const U
 
 template <int NU>
 void DisturbedContinuousProblem<NU>::flow(const X& x, const U& u, X& dx) const noexcept {
-  inner_->flow(x, u, dx);
+  this->inner().flow(x, u, dx);
   dx.template segment<kVelocityDim>(kNu) += load_.acceleration;
 }
 
 template <int NU>
 void DisturbedContinuousProblem<NU>::addCostRate(const X& x, const U& u,
                                                  CostTerms& terms) const noexcept {
-  inner_->addCostRate(x, u, terms);
+  this->inner().addCostRate(x, u, terms);
   const Tasks& tasks = whole_body_.tasks();
   const double rho = shaping_.rho();
   for (int i = 0; i < kJointCount; ++i) {
@@ -100,7 +94,7 @@ void DisturbedContinuousProblem<NU>::addCostRate(const X& x, const U& u,
 template <int NU>
 void DisturbedContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
                                             Expansion& out) const noexcept {
-  inner_->expand(x, u, dx, out);
+  this->inner().expand(x, u, dx, out);
   dx.template segment<kVelocityDim>(kNu) += load_.acceleration;
   const Tasks& tasks = whole_body_.tasks();
   const double rho = shaping_.rho();

@@ -5,16 +5,15 @@ namespace ballbot {
 template <int NU>
 FloorLimitedProblem<NU>::FloorLimitedProblem(const RobotParameters& robot,
                                              const Constraints& constraints,
-                                             const std::vector<double>& knots,
-                                             const WholeBodyProblem<NU>& inner)
-    : inner_(inner), constraints_(constraints), spin_torque_(robot) {
+                                             const std::vector<double>& knots, const Base& inner)
+    : WrappedProblem<NU>(inner), constraints_(constraints), spin_torque_(robot) {
   for (std::size_t k = 0; k + 1 < knots.size(); ++k) steps_.push_back(knots[k + 1] - knots[k]);
 }
 
 template <int NU>
 void FloorLimitedProblem<NU>::addCost(int k, const X& x, const U& u,
                                       CostTerms& terms) const noexcept {
-  inner_.addCost(k, x, u, terms);
+  this->inner().addCost(k, x, u, terms);
   terms.value[kTorqueLimitCost] +=
       spinTorqueCost(spin_torque_, constraints_, x.template head<kStateDim>(),
                      u.template head<kWheelCount>(), steps_[k], terms.violation);
@@ -23,7 +22,7 @@ void FloorLimitedProblem<NU>::addCost(int k, const X& x, const U& u,
 template <int NU>
 void FloorLimitedProblem<NU>::approximate(int first, int count, const X* x, const U* u,
                                           CostTerms* terms, Stage* lq) const noexcept {
-  inner_.approximate(first, count, x, u, terms, lq);
+  this->inner().approximate(first, count, x, u, terms, lq);
   for (int i = 0; i < count; ++i) {
     const StateVector robot = x[i].template head<kStateDim>();
     const Vector3 tau = u[i].template head<kWheelCount>();
@@ -37,7 +36,7 @@ void FloorLimitedProblem<NU>::approximate(int first, int count, const X* x, cons
 template <int NU>
 void FloorLimitedContinuousProblem<NU>::addCostRate(const X& x, const U& u,
                                                     CostTerms& terms) const noexcept {
-  inner_.addCostRate(x, u, terms);
+  this->inner().addCostRate(x, u, terms);
   terms.value[kTorqueLimitCost] +=
       spinTorqueCost(spin_torque_, constraints_, x.template head<kStateDim>(),
                      u.template head<kWheelCount>(), 1, terms.violation);
@@ -46,7 +45,7 @@ void FloorLimitedContinuousProblem<NU>::addCostRate(const X& x, const U& u,
 template <int NU>
 void FloorLimitedContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
                                                Expansion& out) const noexcept {
-  inner_.expand(x, u, dx, out);
+  this->inner().expand(x, u, dx, out);
   expandSpinTorqueCost<NU>(spin_torque_, constraints_, x.template head<kStateDim>(),
                            u.template head<kWheelCount>(), 1, out);
 }

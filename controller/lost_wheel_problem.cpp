@@ -50,12 +50,12 @@ void disconnect(const WheelFlags& lost, const U& u, LqStage<kMpcStateDim, NU>& l
 
 template <int NU>
 void LostWheelProblem<NU>::step(int k, const X& x, const U& u, X& next) const noexcept {
-  inner_.step(k, x, withoutLost(lost_, u), next);
+  this->inner().step(k, x, withoutLost(lost_, u), next);
 }
 
 template <int NU>
 void LostWheelProblem<NU>::addCost(int k, const X& x, const U& u, CostTerms& terms) const noexcept {
-  inner_.addCost(k, x, withoutLost(lost_, u), terms);
+  this->inner().addCost(k, x, withoutLost(lost_, u), terms);
   terms.value[kWheelTorqueCost] += lostSquares(lost_, u);
 }
 
@@ -66,7 +66,7 @@ void LostWheelProblem<NU>::approximate(int first, int count, const X* x, const U
   for (int i = 0; i < count; i += kTogether) {
     const int now = std::min(kTogether, count - i);
     for (int j = 0; j < now; ++j) left[j] = withoutLost(lost_, u[i + j]);
-    inner_.approximate(first + i, now, x + i, left, terms + i, lq + i);
+    this->inner().approximate(first + i, now, x + i, left, terms + i, lq + i);
     for (int j = 0; j < now; ++j) {
       terms[i + j].value[kWheelTorqueCost] += lostSquares(lost_, u[i + j]);
       disconnect<NU>(lost_, u[i + j], lq[i + j]);
@@ -76,20 +76,20 @@ void LostWheelProblem<NU>::approximate(int first, int count, const X* x, const U
 
 template <int NU>
 void LostWheelContinuousProblem<NU>::flow(const X& x, const U& u, X& dx) const noexcept {
-  inner_.flow(x, withoutLost(lost_, u), dx);
+  this->inner().flow(x, withoutLost(lost_, u), dx);
 }
 
 template <int NU>
 void LostWheelContinuousProblem<NU>::addCostRate(const X& x, const U& u,
                                                  CostTerms& terms) const noexcept {
-  inner_.addCostRate(x, withoutLost(lost_, u), terms);
+  this->inner().addCostRate(x, withoutLost(lost_, u), terms);
   terms.value[kWheelTorqueCost] += lostSquares(lost_, u);
 }
 
 template <int NU>
 void LostWheelContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
                                             Expansion& out) const noexcept {
-  inner_.expand(x, withoutLost(lost_, u), dx, out);
+  this->inner().expand(x, withoutLost(lost_, u), dx, out);
   disconnect<NU>(lost_, u, out);
 }
 

@@ -1,12 +1,9 @@
 #pragma once
 
 #include "controller/continuous_problem.hpp"
-#include "controller/cost_terms.hpp"
-#include "controller/mpc_dimensions.hpp"
 #include "controller/tasks.hpp"
+#include "controller/wrapped_problem.hpp"
 #include "model/wheel_flags.hpp"
-#include "solver/continuous_control_problem.hpp"
-#include "solver/optimal_control_problem.hpp"
 
 namespace ballbot {
 
@@ -19,69 +16,53 @@ inline void giveUpYaw(Tasks& tasks) noexcept {
 /// A problem whose lost wheels move nothing: their torques cost their squares and nothing else, so
 /// that none is planned. What is left to plan with are the others.
 template <int NU>
-class LostWheelProblem final : public OptimalControlProblem<kMpcStateDim, NU, CostTerms> {
+class LostWheelProblem final : public WrappedProblem<NU> {
  public:
-  using Base = OptimalControlProblem<kMpcStateDim, NU, CostTerms>;
-  using X = typename Base::X;
-  using U = typename Base::U;
-  using Stage = LqStage<kMpcStateDim, NU>;
+  using typename WrappedProblem<NU>::Base;
+  using typename WrappedProblem<NU>::X;
+  using typename WrappedProblem<NU>::U;
+  using typename WrappedProblem<NU>::Stage;
 
-  /// @param inner  with all wheels; must outlive this
-  explicit LostWheelProblem(const Base& inner) : inner_(inner) {}
+  using WrappedProblem<NU>::WrappedProblem;
 
   void setLost(const WheelFlags& lost) noexcept { lost_ = lost; }
   bool isLost() const noexcept { return any(lost_); }
 
-  int stages() const noexcept override { return inner_.stages(); }
   void step(int k, const X& x, const U& u, X& next) const noexcept override;
   void addCost(int k, const X& x, const U& u, CostTerms& terms) const noexcept override;
-  void addFinalCost(const X& x, CostTerms& terms) const noexcept override {
-    inner_.addFinalCost(x, terms);
-  }
   void approximate(int first, int count, const X* x, const U* u, CostTerms* terms,
                    Stage* lq) const noexcept override;
-  void approximateFinalCost(const X& x, CostTerms& terms,
-                            ValueFunction<kMpcStateDim>& value) const noexcept override {
-    inner_.approximateFinalCost(x, terms, value);
-  }
 
  private:
-  const Base& inner_;
   WheelFlags lost_{};
 };
 
 /// The same in continuous time.
 template <int NU>
-class LostWheelContinuousProblem final
-    : public ContinuousControlProblem<kMpcStateDim, NU, CostTerms> {
+class LostWheelContinuousProblem final : public WrappedContinuousProblem<NU> {
  public:
-  using Base = ContinuousControlProblem<kMpcStateDim, NU, CostTerms>;
-  using X = typename Base::X;
-  using U = typename Base::U;
-  using Expansion = typename Base::Expansion;
+  using typename WrappedContinuousProblem<NU>::Base;
+  using typename WrappedContinuousProblem<NU>::X;
+  using typename WrappedContinuousProblem<NU>::U;
+  using typename WrappedContinuousProblem<NU>::Expansion;
 
-  /// @param inner  with all wheels; must outlive this
-  explicit LostWheelContinuousProblem(ContinuousProblem<NU>& inner) : inner_(inner) {}
+  /// @param whole_body  with all wheels; must outlive this
+  explicit LostWheelContinuousProblem(ContinuousProblem<NU>& whole_body)
+      : WrappedContinuousProblem<NU>(whole_body), whole_body_(whole_body) {}
 
   void setLost(const WheelFlags& lost) noexcept { lost_ = lost; }
   bool isLost() const noexcept { return any(lost_); }
 
   void setTime(double t) noexcept override {
-    inner_.setTime(t);
-    giveUpYaw(inner_.tasks());
+    whole_body_.setTime(t);
+    giveUpYaw(whole_body_.tasks());
   }
   void flow(const X& x, const U& u, X& dx) const noexcept override;
   void addCostRate(const X& x, const U& u, CostTerms& terms) const noexcept override;
   void expand(const X& x, const U& u, X& dx, Expansion& out) const noexcept override;
-  void addFinalCost(const X& x, CostTerms& terms) const noexcept override {
-    inner_.addFinalCost(x, terms);
-  }
-  void expandFinalCost(const X& x, ValueFunction<kMpcStateDim>& value) const noexcept override {
-    inner_.expandFinalCost(x, value);
-  }
 
  private:
-  ContinuousProblem<NU>& inner_;
+  ContinuousProblem<NU>& whole_body_;
   WheelFlags lost_{};
 };
 

@@ -1,9 +1,7 @@
 #pragma once
 
-#include "controller/lasting_load.hpp"
 #include "controller/mpc_policy.hpp"
-#include "controller/pushed_problem.hpp"
-#include "model/wheel_flags.hpp"
+#include "controller/plan_conditions.hpp"
 #include "solver/slq_report.hpp"
 
 namespace ballbot {
@@ -28,18 +26,7 @@ class MpcEngine {
   /// For the solves that follow.
   void setContact(const ContactSituation& contact) noexcept { contact_ = contact; }
   void setCommands(const GovernedCommands& commands) noexcept { commands_ = commands; }
-
-  /// What the floor is counted on to hold of the ball's spin; kUnlimited without end [N m].
-  virtual void setFloorHeld(double torque) noexcept = 0;
-  /// Wheels whose torque moves nothing.
-  virtual void setLostWheels(const WheelFlags& lost) noexcept = 0;
-  virtual void setPush(const Push& push) noexcept = 0;
-
-  /// What acts on the robot all along the plans that follow.
-  virtual void setLoad(const LastingLoad& load) noexcept = 0;
-
-  /// The mass in the robot's hand [kg].
-  virtual void setPayload(double mass) noexcept = 0;
+  void setConditions(const PlanConditions& conditions) noexcept { conditions_ = conditions; }
 
   virtual void setClock(PhaseClock clock) noexcept = 0;
 
@@ -50,6 +37,7 @@ class MpcEngine {
  protected:
   ContactSituation contact_;
   GovernedCommands commands_;
+  PlanConditions conditions_;
 };
 
 }  // namespace ballbot

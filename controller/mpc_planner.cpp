@@ -199,7 +199,7 @@ ContactReport MpcPlanner::superviseContact(SimTime now, const Vector3& p_WE) noe
   if (tasks.inContact()) report.asked_W = tasks.R_WC * tasks.contact_force_C;
   schedule.at(t, t, tasks, situation, governor_.commands());
   const double asked = tasks.inContact() ? tasks.contact_force_C.z() : 0;
-  supervisor_.update(now, asked, tasks.R_WC.col(2).dot(contact_force_W_));
+  supervisor_.update(now, asked, tasks.R_WC.col(2).dot(circumstances_.contact_force_W));
   situation = supervisor_.situation();
   situation.turn = turn;
   engine_->setContact(situation);
@@ -209,15 +209,20 @@ ContactReport MpcPlanner::superviseContact(SimTime now, const Vector3& p_WE) noe
   return report;
 }
 
-void MpcPlanner::takeLastingForces(const StateVector& x) noexcept {
-  const double payload = known_payload_ + lasting_.hand_mass;
-  if (payload != dynamics_.robot().payload_mass) {
-    dynamics_.setPayload(payload);
-    engine_->setPayload(payload);
+PlanConditions MpcPlanner::conditionsAt(const StateVector& x) noexcept {
+  PlanConditions out;
+  out.floor_held = circumstances_.floor_held;
+  out.lost_wheels = circumstances_.lost_wheels;
+  const LastingForces& lasting = circumstances_.lasting;
+  out.payload = known_payload_ + lasting.hand_mass;
+  if (*out.payload != dynamics_.robot().payload_mass) dynamics_.setPayload(*out.payload);
+  if (!lasting.rest.isZero(0)) findLastingLoad(dynamics_, x, lasting.rest, out.load);
+  // Where contact is planned, what is felt is the contact.
+  if (!config_.contact_forces) {
+    out.push =
+        Push::on(dynamics_, x.head<kPositionDim>(), circumstances_.push, circumstances_.push_lasts);
   }
-  LastingLoad load;
-  if (!lasting_.rest.isZero(0)) findLastingLoad(dynamics_, x, lasting_.rest, load);
-  engine_->setLoad(load);
+  return out;
 }
 
 PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf,
@@ -234,11 +239,7 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
   governor_.update(now, *config_.schedule, x, tip);
   engine_->setCommands(governor_.commands());
   report.command_cut = governor_.cutting();
-  // Where contact is planned, what is felt is the contact.
-  if (!config_.contact_forces) {
-    engine_->setPush(Push::on(dynamics_, x.head<kPositionDim>(), push_, push_lasts_));
-  }
-  takeLastingForces(x);
+  engine_->setConditions(conditionsAt(x));
   const bool fresh = previous.valid() && now - previous.stamp() <= config_.fallback_after;
   if (!fresh) seedFrom(stand_in, now, x[kYaw]);
   MpcState x0;

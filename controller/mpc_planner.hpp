@@ -66,14 +66,7 @@ class MpcPlanner {
   void setClock(PhaseClock clock) noexcept { engine_->setClock(clock); }
 
   /// What the plans that follow count on.
-  void setCircumstances(const Circumstances& now) noexcept {
-    contact_force_W_ = now.contact_force_W;
-    engine_->setFloorHeld(now.floor_held);
-    engine_->setLostWheels(now.lost_wheels);
-    push_ = now.push;
-    push_lasts_ = now.push_lasts;
-    lasting_ = now.lasting;
-  }
+  void setCircumstances(const Circumstances& now) noexcept { circumstances_ = now; }
 
   /// What the planner makes of the contact; part of the state to be saved.
   const ContactSupervisor& contact() const noexcept { return supervisor_; }
@@ -89,8 +82,8 @@ class MpcPlanner {
  private:
   /// A guess where there is no plan: the LQR's policy, its gains those for the engine's steps.
   void seedFrom(const PolicySample& stand_in, SimTime now, double yaw) noexcept;
-  /// Tells the engine what lasting forces do.
-  void takeLastingForces(const StateVector& x) noexcept;
+  /// Circumstances as they are to a robot in state x.
+  PlanConditions conditionsAt(const StateVector& x) noexcept;
   /// Tells the engine what to count on at the end-effector.
   ContactReport superviseContact(SimTime now, const Vector3& p_WE) noexcept;
 
@@ -98,11 +91,8 @@ class MpcPlanner {
   ReducedDynamics dynamics_;
   ContactSupervisor supervisor_;
   CommandGovernor governor_;
-  Vector3 contact_force_W_ = Vector3::Zero();
-  VelocityVector push_ = VelocityVector::Zero();
-  double push_lasts_ = 1;
   double known_payload_;  ///< [kg]
-  LastingForces lasting_;
+  Circumstances circumstances_;
   std::unique_ptr<MpcEngine> engine_;
   std::vector<FeedbackGain> seed_gains_;  ///< per control of the seed, at zero yaw
   MpcPolicy seed_;

@@ -1,13 +1,46 @@
 #include "controller/plan_problem.hpp"
 
 namespace ballbot {
+namespace {
+
+/// Another mass in the hand is rare, and work.
+template <typename Problem>
+void takePayload(const PlanConditions& conditions, double& payload, Problem& problem) noexcept {
+  if (!conditions.payload || *conditions.payload == payload) return;
+  payload = *conditions.payload;
+  problem.setPayload(payload);
+}
+
+/// Of those that change anything the last one, each around the one before.
+template <typename Base, typename Floor, typename Lost, typename Disturbed, typename Pushed>
+Base* outermost(Base* problem, Floor& floor, Lost& lost, Disturbed& disturbed,
+                Pushed& pushed) noexcept {
+  // Without a wheel what the floor holds of a spin is no matter of choice: it balances or turns.
+  if (lost.isLost()) {
+    problem = &lost;
+  } else if (floor.isLimited()) {
+    problem = &floor;
+  }
+  if (disturbed.isLoaded()) {
+    disturbed.setInner(*problem);
+    problem = &disturbed;
+  }
+  if (pushed.isPushed()) {
+    pushed.setInner(*problem);
+    problem = &pushed;
+  }
+  return problem;
+}
+
+}  // namespace
 
 template <int NU>
 PlanProblem<NU>::PlanProblem(const RobotParameters& robot, const Constraints& constraints,
                              const FrequencyShaping& shaping, const TerminalCost& terminal,
                              const std::vector<double>& knots,
                              std::shared_ptr<const TaskSchedule> schedule)
-    : schedule_(std::move(schedule)),
+    : payload_(robot.payload_mass),
+      schedule_(std::move(schedule)),
       whole_body_(robot, constraints, shaping, terminal, knots),
       floor_limited_(robot, constraints, knots, whole_body_),
       lost_wheel_(whole_body_),
@@ -16,23 +49,19 @@ PlanProblem<NU>::PlanProblem(const RobotParameters& robot, const Constraints& co
 
 template <int NU>
 const typename PlanProblem<NU>::Base& PlanProblem<NU>::at(
-    double t0, const ContactSituation& contact, const GovernedCommands& commands) noexcept {
+    double t0, const ContactSituation& contact, const GovernedCommands& commands,
+    const PlanConditions& conditions) noexcept {
+  takePayload(conditions, payload_, whole_body_);
   whole_body_.setTasks(*schedule_, t0, contact, commands);
-  const Base* problem = &whole_body_;
-  if (floor_limited_.isLimited()) problem = &floor_limited_;
+  floor_limited_.setHeld(conditions.floor_held);
+  lost_wheel_.setLost(conditions.lost_wheels);
   if (lost_wheel_.isLost()) {
     for (int k = 0; k <= whole_body_.stages(); ++k) giveUpYaw(whole_body_.tasks(k));
-    problem = &lost_wheel_;
   }
-  if (disturbed_.isLoaded()) {
-    disturbed_.setInner(*problem);
-    problem = &disturbed_;
-  }
-  if (pushed_.isPushed()) {
-    pushed_.setInner(*problem);
-    problem = &pushed_;
-  }
-  return *problem;
+  disturbed_.setLoad(conditions.load);
+  pushed_.setPush(conditions.push);
+  const Base* innermost = &whole_body_;
+  return *outermost(innermost, floor_limited_, lost_wheel_, disturbed_, pushed_);
 }
 
 template <int NU>
@@ -41,7 +70,8 @@ ContinuousPlanProblem<NU>::ContinuousPlanProblem(const RobotParameters& robot,
                                                  const FrequencyShaping& shaping,
                                                  const TerminalCost& terminal,
                                                  std::shared_ptr<const TaskSchedule> schedule)
-    : whole_body_(robot, constraints, shaping, terminal, std::move(schedule)),
+    : payload_(robot.payload_mass),
+      whole_body_(robot, constraints, shaping, terminal, std::move(schedule)),
       floor_limited_(robot, constraints, whole_body_),
       lost_wheel_(whole_body_),
       disturbed_(shaping, whole_body_),
@@ -49,20 +79,16 @@ ContinuousPlanProblem<NU>::ContinuousPlanProblem(const RobotParameters& robot,
 
 template <int NU>
 typename ContinuousPlanProblem<NU>::Base& ContinuousPlanProblem<NU>::at(
-    double t0, const ContactSituation& contact, const GovernedCommands& commands) noexcept {
+    double t0, const ContactSituation& contact, const GovernedCommands& commands,
+    const PlanConditions& conditions) noexcept {
+  takePayload(conditions, payload_, whole_body_);
   whole_body_.setHorizon(t0, contact, commands);
-  Base* problem = &whole_body_;
-  if (floor_limited_.isLimited()) problem = &floor_limited_;
-  if (lost_wheel_.isLost()) problem = &lost_wheel_;
-  if (disturbed_.isLoaded()) {
-    disturbed_.setInner(*problem);
-    problem = &disturbed_;
-  }
-  if (pushed_.isPushed()) {
-    pushed_.setInner(*problem);
-    problem = &pushed_;
-  }
-  return *problem;
+  floor_limited_.setHeld(conditions.floor_held);
+  lost_wheel_.setLost(conditions.lost_wheels);
+  disturbed_.setLoad(conditions.load);
+  pushed_.setPush(conditions.push);
+  Base* innermost = &whole_body_;
+  return *outermost(innermost, floor_limited_, lost_wheel_, disturbed_, pushed_);
 }
 
 template class PlanProblem<6>;

@@ -3,10 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include "controller/circumstances.hpp"
 #include "controller/disturbed_problem.hpp"
 #include "controller/floor_limited_problem.hpp"
 #include "controller/lost_wheel_problem.hpp"
+#include "controller/plan_conditions.hpp"
 #include "controller/pushed_problem.hpp"
 #include "controller/whole_body_problem.hpp"
 
@@ -25,17 +25,13 @@ class PlanProblem {
               const std::vector<double>& knots, std::shared_ptr<const TaskSchedule> schedule);
 
   int stages() const noexcept { return whole_body_.stages(); }
-  void setFloorHeld(double torque) noexcept { floor_limited_.setHeld(torque); }
-  void setLostWheels(const WheelFlags& lost) noexcept { lost_wheel_.setLost(lost); }
-  void setLoad(const LastingLoad& load) noexcept { disturbed_.setLoad(load); }
-  void setPayload(double mass) noexcept { whole_body_.setPayload(mass); }
-  void setPush(const Push& push) noexcept { pushed_.setPush(push); }
 
   /// That of a horizon which starts at t0 [s]; good until the next call. Free of allocation.
-  const Base& at(double t0, const ContactSituation& contact,
-                 const GovernedCommands& commands) noexcept;
+  const Base& at(double t0, const ContactSituation& contact, const GovernedCommands& commands,
+                 const PlanConditions& conditions) noexcept;
 
  private:
+  double payload_;  ///< of the models [kg]
   std::shared_ptr<const TaskSchedule> schedule_;
   WholeBodyProblem<NU> whole_body_;
   FloorLimitedProblem<NU> floor_limited_;  ///< the same on a floor that does not hold everything
@@ -54,16 +50,12 @@ class ContinuousPlanProblem {
                         const FrequencyShaping& shaping, const TerminalCost& terminal,
                         std::shared_ptr<const TaskSchedule> schedule);
 
-  void setFloorHeld(double torque) noexcept { floor_limited_.setHeld(torque); }
-  void setLostWheels(const WheelFlags& lost) noexcept { lost_wheel_.setLost(lost); }
-  void setLoad(const LastingLoad& load) noexcept { disturbed_.setLoad(load); }
-  void setPayload(double mass) noexcept { whole_body_.setPayload(mass); }
-  void setPush(const Push& push) noexcept { pushed_.setPush(push); }
-
   /// As PlanProblem::at.
-  Base& at(double t0, const ContactSituation& contact, const GovernedCommands& commands) noexcept;
+  Base& at(double t0, const ContactSituation& contact, const GovernedCommands& commands,
+           const PlanConditions& conditions) noexcept;
 
  private:
+  double payload_;  ///< of the model [kg]
   ContinuousProblem<NU> whole_body_;
   FloorLimitedContinuousProblem<NU> floor_limited_;
   LostWheelContinuousProblem<NU> lost_wheel_;

@@ -4,7 +4,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "controller/euler_rates.hpp"
+#include "controller/added_acceleration.hpp"
 
 namespace ballbot {
 
@@ -23,7 +23,9 @@ VelocityVector Push::meanAcceleration(double t, double h) const noexcept {
 
 template <int NU>
 PushedProblem<NU>::PushedProblem(const std::vector<double>& knots, const Base& inner)
-    : inner_(&inner), knots_(knots), acceleration_(knots.size() - 1, VelocityVector::Zero()) {}
+    : WrappedProblem<NU>(inner),
+      knots_(knots),
+      acceleration_(knots.size() - 1, VelocityVector::Zero()) {}
 
 template <int NU>
 void PushedProblem<NU>::setPush(const Push& push) noexcept {
@@ -36,33 +38,27 @@ void PushedProblem<NU>::setPush(const Push& push) noexcept {
 
 template <int NU>
 void PushedProblem<NU>::step(int k, const X& x, const U& u, X& next) const noexcept {
-  inner_->step(k, x, u, next);
-  // As WholeBodyProblem: nu+ has H a more, and q+ = q + H T(q_m) (nu + nu+) / 2.
+  this->inner().step(k, x, u, next);
   const auto at = static_cast<std::size_t>(k);
-  const double H = knots_[at + 1] - knots_[at];
-  const PositionVector q = x.template head<kPositionDim>();
-  const VelocityVector nu = x.template segment<kVelocityDim>(kPositionDim);
-  const PositionVector mid = q + 0.5 * H * EulerRates(q).rate(nu);
-  next.template segment<kVelocityDim>(kPositionDim) += H * acceleration_[at];
-  next.template head<kPositionDim>() += 0.5 * H * H * EulerRates(mid).rate(acceleration_[at]);
+  addAcceleration(knots_[at + 1] - knots_[at], x, acceleration_[at], next);
 }
 
 template <int NU>
 void PushedContinuousProblem<NU>::setTime(double t) noexcept {
-  inner_->setTime(t);
+  this->inner().setTime(t);
   acceleration_ = std::exp(-t / push_.lasts) * push_.acceleration;
 }
 
 template <int NU>
 void PushedContinuousProblem<NU>::flow(const X& x, const U& u, X& dx) const noexcept {
-  inner_->flow(x, u, dx);
+  this->inner().flow(x, u, dx);
   dx.template segment<kVelocityDim>(kPositionDim) += acceleration_;
 }
 
 template <int NU>
 void PushedContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
                                          Expansion& out) const noexcept {
-  inner_->expand(x, u, dx, out);
+  this->inner().expand(x, u, dx, out);
   dx.template segment<kVelocityDim>(kPositionDim) += acceleration_;
 }
 

@@ -22,24 +22,6 @@ void withoutLost(const WheelFlags& lost, ActuatorCommand& command) noexcept {
   }
 }
 
-/// Names of what RobotController::estimate() puts beside an estimate.
-void addLastingForce(std::vector<AddedSignal>& list) {
-  list.push_back({"lasting_hand_mass", "kg", "mass in the hand that the model does not know of"});
-  for (const char* axis : {"x", "y"}) {
-    list.push_back({std::string("lasting_force_") + axis, "N",
-                    "lasting force along the floor that the model does not know of"});
-  }
-  for (const char* axis : {"x", "y", "z"}) {
-    list.push_back({std::string("lasting_moment_") + axis, "N m",
-                    "the same, moment about the ball's centre in the base's axes"});
-  }
-  for (const char* joint : {"1", "2", "3"}) {
-    list.push_back({std::string("lasting_arm_torque_") + joint, "N m",
-                    "the same, torque in a joint of the arm"});
-  }
-  list.push_back({"lasting_force_learned", "", "1 while it is learned, 0 while it is kept"});
-}
-
 }  // namespace
 
 RobotController::RobotController(const RunConfig& config, EventCalendar& calendar)
@@ -51,20 +33,14 @@ RobotController::RobotController(const RunConfig& config, EventCalendar& calenda
       tracker_(std::make_unique<PdTracker>(config.controller.tracker)),
       spin_torque_(config.believedRobot()),
       command_share_(config.controller.floor.command_share),
+      beside_estimate_(besideEstimate(sensing_.estimator().knowsSpin(),
+                                      config.controller.offset_free.enabled,
+                                      config.controller.push.counted_on)),
       state_(FloorHold(config.believedRobot(), config.controller.floor),
              LostWheels(config.controller.wheel_loss), PushEstimate(config.controller.push)) {
   added_[AddedTo::kPlan].list = config.controller.law->addedToPlan();
-  std::vector<AddedSignal>& estimated = added_[AddedTo::kEstimate].list;
-  if (sensing_.estimator().knowsSpin()) {
-    estimated = {
-        {"ball_spin_rate", "rad/s", "estimated spin of the ball about the vertical"},
-        {"sigma_ball_spin_rate", "rad/s", "one standard deviation of ball_spin_rate"},
-        {"floor_spin_torque_held", "N m", "what the floor is counted on to hold of that spin"}};
-  }
-  if (config.controller.offset_free.enabled) addLastingForce(added_[AddedTo::kEstimate].list);
-  if (config.controller.push.counted_on) {
-    estimated.push_back({"push_force_x", "N", "push that plans count on, along x of W"});
-    estimated.push_back({"push_force_y", "N", "push that plans count on, along y of W"});
+  for (const BesideSignal& beside : beside_estimate_) {
+    added_[AddedTo::kEstimate].list.push_back(beside.signal);
   }
   for (AddedSignals& added : added_.of) added.values.assign(added.list.size(), 0.0);
   const Rates& rates = config.scenario.rates;
@@ -108,20 +84,9 @@ void RobotController::estimate(SimTime now, const SensorFrame& sensors, ControlO
     followPush(now);
   }
   tellLaw();
+  const BesideEstimate known{e, state_.floor.held(), sensing_.lasting(), state_.push};
   auto value = added_[AddedTo::kEstimate].values.begin();
-  if (sensing_.estimator().knowsSpin()) {
-    for (const double v : {e.spin_rate, e.spin_rate_sigma, state_.floor.held()}) *value++ = v;
-  }
-  if (sensing_.lasting().enabled()) {
-    const LastingForces& forces = sensing_.lasting().forces();
-    *value++ = forces.hand_mass;
-    value = std::copy(forces.rest.data(), forces.rest.data() + forces.rest.size(), value);
-    *value++ = sensing_.lasting().learning() ? 1 : 0;
-  }
-  if (state_.push.settings().counted_on) {
-    *value++ = state_.push.force()[kBallVx];
-    *value++ = state_.push.force()[kBallVy];
-  }
+  for (const BesideSignal& beside : beside_estimate_) *value++ = beside.value(known, beside.index);
 }
 
 void RobotController::followWheels(SimTime now, const SensorFrame& sensors) noexcept {

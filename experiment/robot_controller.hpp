@@ -14,6 +14,7 @@
 #include "cosim/schedule.hpp"
 #include "cosim/stepped_controller.hpp"
 #include "estimator/refused_wheels.hpp"
+#include "experiment/beside_estimate.hpp"
 #include "experiment/robot_sensing.hpp"
 #include "experiment/scenario.hpp"
 #include "metrics/feedforward_share.hpp"
@@ -107,6 +108,7 @@ class RobotController final : public SteppedController {
   std::unique_ptr<PdTracker> tracker_;
   SpinTorque spin_torque_;
   double command_share_;  ///< of what the floor is counted on to hold
+  std::vector<BesideSignal> beside_estimate_;
   TaskId tracker_task_, estimator_task_, planner_task_;
 
   PerAddedTo<AddedSignals> added_;

@@ -88,10 +88,17 @@ class PlanWithoutAWheel : public testing::Test {
 
 constexpr WheelFlags kSecond{false, true, false};
 
+PlanConditions conditions(double floor_held, const WheelFlags& lost) {
+  PlanConditions out;
+  out.floor_held = floor_held;
+  out.lost_wheels = lost;
+  return out;
+}
+
 TEST_F(PlanWithoutAWheel, AsksNothingOfItAndMovesAsTheRobotWouldWithoutIt) {
   config_.horizon.coarse_step = 0.0025;
   const auto engine = makeEngine(robot_, config_);
-  engine->setLostWheels(kSecond);
+  engine->setConditions(conditions(kUnlimited, kSecond));
   MpcPolicy plan = engine->emptyPolicy();
   ASSERT_EQ(solve(*engine, 60, plan).status, SlqStatus::kConverged);
   double others = 0;
@@ -126,7 +133,7 @@ TEST_F(PlanWithoutAWheel, IsTheSameInBothEngines) {
     const bool continuous = kind == MpcConfig::Engine::kContinuous;
     config_.horizon.coarse_step = continuous ? 0.01 : 0.0025;
     const auto engine = makeEngine(robot_, config_);
-    engine->setLostWheels(kSecond);
+    engine->setConditions(conditions(kUnlimited, kSecond));
     MpcPolicy plan = engine->emptyPolicy();
     report[continuous ? 1 : 0] = solve(*engine, 60, plan);
     ASSERT_TRUE(report[continuous ? 1 : 0].ok());
@@ -140,13 +147,14 @@ TEST_F(PlanWithoutAWheel, LeavesNothingBehind) {
       config_.engine = kind;
       const auto used = makeEngine(robot_, config_), fresh = makeEngine(robot_, config_);
       MpcPolicy a = used->emptyPolicy(), b = a;
-      used->setFloorHeld(0.4);
+      used->setConditions(conditions(0.4, {}));
       ASSERT_TRUE(solve(*used, 2, a).ok());
-      used->setLostWheels(kSecond);
+      used->setConditions(conditions(0.4, kSecond));
       ASSERT_TRUE(solve(*used, 2, a).ok());
-      used->setLostWheels({});
       used->setShift(fresh->shift());
-      for (MpcEngine* engine : {used.get(), fresh.get()}) engine->setFloorHeld(held);
+      for (MpcEngine* engine : {used.get(), fresh.get()})
+        engine->setConditions(conditions(held, {}));
+
       ASSERT_TRUE(solve(*used, 2, a).ok());
       ASSERT_TRUE(solve(*fresh, 2, b).ok());
       for (std::size_t k = 0; k < a.controls().size(); ++k) {

@@ -68,7 +68,9 @@ class PushedPlan : public testing::Test {
     config_.engine = kind;
     config_.horizon.coarse_step = step;
     const auto engine = makeEngine(robot_, config_);
-    engine->setPush(push);
+    PlanConditions pushed;
+    pushed.push = push;
+    engine->setConditions(pushed);
     MpcPolicy seed = engine->emptyPolicy();
     for (auto& knot : seed.knots()) knot.x << lqr_.equilibrium.x, Vector3::Zero();
     for (auto& control : seed.controls()) {
