@@ -28,24 +28,15 @@ void describeKnownPayload(ConfigVisitor& v, double& payload) {
            payload, {0, 5});
 }
 
-void describeFloor(ConfigVisitor& v, FloorBelief& floor) {
-  v.section(may("floor", "what is believed of the floor under the ball"),
-            [&](ConfigVisitor& in) { floor.describe(in); });
-}
-
-void describeWheelLoss(ConfigVisitor& v, WheelLoss& loss) {
-  v.section(may("wheel_loss", "when a wheel that slips is no longer counted on"),
-            [&](ConfigVisitor& in) { loss.describe(in); });
-}
-
-void describePush(ConfigVisitor& v, PushBelief& push) {
-  v.section(may("push", "what is made of a force that acts now and that nothing explains"),
-            [&](ConfigVisitor& in) { push.describe(in); });
-}
-
-void describeOffsetFree(ConfigVisitor& v, OffsetFree& offset_free) {
-  v.section(may("offset_free", "lasting forces that the model does not know of"),
-            [&](ConfigVisitor& in) { offset_free.describe(in); });
+/// What is believed of the world and of the robot itself, whatever the law.
+void describeBeliefs(ConfigVisitor& v, ControllerSettings& settings) {
+  const auto section = [&v](const char* key, const char* words, auto& belief) {
+    v.section(may(key, words), [&belief](ConfigVisitor& in) { belief.describe(in); });
+  };
+  section("floor", "what is believed of the floor under the ball", settings.floor);
+  section("wheel_loss", "when a wheel that slips is no longer counted on", settings.wheel_loss);
+  section("push", "what is made of a force that acts now and that nothing explains", settings.push);
+  section("offset_free", "lasting forces that the model does not know of", settings.offset_free);
 }
 
 /// What is learned has to have room to be learned in.
@@ -105,10 +96,7 @@ ControllerSettings ControllerSettings::read(ConfigReader& in, const RobotParamet
   });
   ConfigReader tracker = in.child("tracker");
   out.tracker = TrackerConfig::read(tracker, robot);
-  describeFloor(reading, out.floor);
-  describeWheelLoss(reading, out.wheel_loss);
-  describePush(reading, out.push);
-  describeOffsetFree(reading, out.offset_free);
+  describeBeliefs(reading, out);
   requireRange(in, out.floor);
   tracker.finish();
   forEachSection([&](const LawSection& section) { in.raw(section.key.name); });
@@ -129,14 +117,8 @@ void describeController(ConfigVisitor& v, const RobotParameters& robot) {
   TrackerConfig tracker = TrackerConfig::defaults(robot);
   describeKind(v);
   describeKnownPayload(v, known_payload);
-  FloorBelief floor;
-  describeFloor(v, floor);
-  WheelLoss wheel_loss;
-  describeWheelLoss(v, wheel_loss);
-  PushBelief push;
-  describePush(v, push);
-  OffsetFree offset_free;
-  describeOffsetFree(v, offset_free);
+  ControllerSettings at_first;
+  describeBeliefs(v, at_first);
   v.section(must("tracker", "follows the law's plan, at the highest rate"),
             [&](ConfigVisitor& in) { tracker.describe(in); });
   forEachSection([&](const LawSection& section) {

@@ -25,6 +25,18 @@ StateJacobian solveForValue(const StateJacobian& A, const StateJacobian& G, cons
          E.transpose();
 }
 
+/// Two wheels balance or turn: what of yaw and ball they can bring to rest together is fixed by how
+/// they began, a mode that no torque reaches. So yaw is made one that nothing moves and that moves
+/// nothing.
+void leaveYawAlone(ReducedDynamics::Linearization& model) {
+  for (const int i : {int{kYaw}, kPositionDim + kOmegaZ}) {
+    model.df_dx.row(i).setZero();
+    model.df_dx.col(i).setZero();
+    model.df_dx(i, i) = -1;
+    model.df_dtau.row(i).setZero();
+  }
+}
+
 }  // namespace
 
 StateJacobian LqrWeights::stateWeight() const {
@@ -59,16 +71,19 @@ void LqrWeights::describe(ConfigVisitor& v) {
 }
 
 LqrSolution designLqr(const ReducedDynamics& dynamics, const Vector3& arm,
-                      const LqrWeights& weights) {
+                      const LqrWeights& weights, const WheelFlags& lost) {
   LqrSolution out;
   out.equilibrium = findEquilibrium(dynamics, arm);
 
   ReducedDynamics::Linearization model;
   dynamics.linearize(out.equilibrium.x, out.equilibrium.tau, Vector3::Zero(), model);
+  if (any(lost)) leaveYawAlone(model);
   const auto& B = model.df_dtau;
   // R^-1 B^T
-  const FeedbackGain R_inverse_Bt =
-      weights.torqueWeight().cwiseInverse().asDiagonal() * B.transpose();
+  FeedbackGain R_inverse_Bt = weights.torqueWeight().cwiseInverse().asDiagonal() * B.transpose();
+  for (int i = 0; i < kWheelCount; ++i) {
+    if (lost[static_cast<std::size_t>(i)]) R_inverse_Bt.row(i).setZero();  // no price is too high
+  }
   out.P = solveForValue(model.df_dx, B * R_inverse_Bt, weights.stateWeight(),
                         DynamicsConstants(dynamics.robot()).rigid_arm);
   out.K = -R_inverse_Bt * out.P;

@@ -2,6 +2,7 @@
 
 #include "controller/control_law.hpp"
 #include "model/reduced_dynamics.hpp"
+#include "model/wheel_flags.hpp"
 
 namespace ballbot {
 
@@ -36,9 +37,12 @@ struct LqrSolution {
 };
 
 /// LQR about the equilibrium with the arm at `arm` [rad]; joints of a rigid arm take no part in it.
+/// @param lost  wheels whose torque moves nothing, one at most: its row of the gain is zero, and so
+///              are the columns of yaw and its rate, with which two wheels cannot be charged as
+///              well
 /// @throw NumericalError if there is no such equilibrium or no stabilising gain.
 LqrSolution designLqr(const ReducedDynamics& dynamics, const Vector3& arm,
-                      const LqrWeights& weights);
+                      const LqrWeights& weights, const WheelFlags& lost = {});
 
 /// The gain for a robot that faces `yaw`: the dynamics know no direction in the plane, so the
 /// errors of ball position and velocity, given in W, only have to be turned into the heading.

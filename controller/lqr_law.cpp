@@ -52,6 +52,11 @@ LqrLaw::LqrLaw(const RobotParameters& robot, const LqrLawConfig& config)
       dynamics_(robot),
       solution_(designLqr(dynamics_, config.set_point.arm, config.weights)),
       known_payload_(robot.payload_mass) {
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    WheelFlags lost{};
+    lost[i] = true;
+    without_[i] = designLqr(dynamics_, config.set_point.arm, config.weights, lost).K;
+  }
   StateVector at_set_point = solution_.equilibrium.x;
   at_set_point.segment<2>(kBallX) = config_.set_point.ball_position;
   at_set_point[kYaw] = config_.set_point.yaw;
@@ -82,7 +87,10 @@ LqrLaw::Plan LqrLaw::planFor(SimTime now, const StateVector& x,
     p.x.segment<2>(kPitch) = load.x.segment<2>(kPitch);
     p.torque = load.torque;
   }
-  p.feedback = gainAtYaw(solution_.K, x[kYaw]);
+  const auto lost = std::find(lost_.begin(), lost_.end(), true);
+  p.feedback = gainAtYaw(
+      lost == lost_.end() ? solution_.K : without_[static_cast<std::size_t>(lost - lost_.begin())],
+      x[kYaw]);
 
   p.joint_position.head<kWheelCount>() = joint_angle.head<kWheelCount>();
   p.joint_position.tail<kArmJointCount>() = config_.set_point.arm;
@@ -93,6 +101,7 @@ LqrLaw::Plan LqrLaw::planFor(SimTime now, const StateVector& x,
 
 void LqrLaw::setCircumstances(const Circumstances& now) noexcept {
   lasting_ = now.lasting;
+  lost_ = now.lost_wheels;
   const double payload = known_payload_ + lasting_.hand_mass;
   if (payload != dynamics_.robot().payload_mass) dynamics_.setPayload(payload);
 }

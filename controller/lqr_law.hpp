@@ -48,6 +48,7 @@ class LqrLaw final : public ControlLaw {
     visit(self.active_);
   }
 
+  /// With all wheels.
   const LqrSolution& solution() const { return solution_; }
 
   /// Moves the set-point in the plane, from the next plan on.
@@ -75,6 +76,8 @@ class LqrLaw final : public ControlLaw {
   LqrLawConfig config_;
   ReducedDynamics dynamics_;
   LqrSolution solution_;
+  std::array<FeedbackGain, kWheelCount> without_;  ///< gains for the robot that has lost a wheel
+  WheelFlags lost_{};
   double known_payload_;  ///< [kg]
   LastingForces lasting_;
   Plan planned_, active_;

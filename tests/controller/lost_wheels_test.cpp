@@ -1,8 +1,12 @@
 #include "controller/lost_wheels.hpp"
 
+#include <vector>
+
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "controller/mpc_planner.hpp"
+#include "tests/controller/support/lqr_seed.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
@@ -48,6 +52,31 @@ TEST(LostWheels, AreKeptWhereAsked) {
   EXPECT_FALSE(wheels.any());
 }
 
+// The model's own derivatives, without yaw and its rate: what is left is brought to rest.
+TEST(LqrWithoutAWheel, BalancesWithTheOtherTwoAndLeavesYawAlone) {
+  const RobotParameters robot = exampleRobot();
+  const ReducedDynamics dynamics(robot);
+  for (int wheel = 0; wheel < kWheelCount; ++wheel) {
+    WheelFlags lost{};
+    lost[static_cast<std::size_t>(wheel)] = true;
+    const LqrSolution lqr = designLqr(dynamics, robot.nominal_arm, LqrWeights{}, lost);
+    EXPECT_EQ(lqr.K.row(wheel).norm(), 0);
+    ReducedDynamics::Linearization model;
+    dynamics.linearize(lqr.equilibrium.x, lqr.equilibrium.tau, Vector3::Zero(), model);
+    std::vector<int> kept;
+    for (int i = 0; i < kStateDim; ++i) {
+      if (i == kYaw || i == kPositionDim + kOmegaZ) {
+        EXPECT_LT(lqr.K.col(i).norm(), 1e-9);
+      } else {
+        kept.push_back(i);
+      }
+    }
+    const StateJacobian closed = model.df_dx + model.df_dtau * lqr.K;
+    const Eigen::MatrixXd rest = closed(kept, kept);
+    EXPECT_LT(rest.eigenvalues().real().maxCoeff(), -0.3);
+  }
+}
+
 class PlanWithoutAWheel : public testing::Test {
  protected:
   PlanWithoutAWheel() : config_(robot_) {
@@ -66,18 +95,8 @@ class PlanWithoutAWheel : public testing::Test {
     x0_[kPitch] += 0.04;
     x0_[kPositionDim + kOmegaX] = 0.2;
   }
-  MpcPolicy seedFor(const MpcEngine& engine) const {
-    MpcPolicy seed = engine.emptyPolicy();
-    for (auto& knot : seed.knots()) knot.x << lqr_.equilibrium.x, Vector3::Zero();
-    for (auto& control : seed.controls()) {
-      control.u << lqr_.equilibrium.tau, ContactInput::Zero();
-      control.K.topLeftCorner<kJointCount, kStateDim>() = lqr_.K;
-    }
-    seed.setValid(kSimStart);
-    return seed;
-  }
   MpcSolveReport solve(MpcEngine& engine, int iterations, MpcPolicy& out) const {
-    return engine.solve(kSimStart, x0_, seedFor(engine), iterations, out);
+    return engine.solve(kSimStart, x0_, lqrSeed(engine, lqr_), iterations, out);
   }
 
   RobotParameters robot_ = exampleRobot();

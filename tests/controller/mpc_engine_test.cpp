@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "controller/mpc_planner.hpp"
+#include "tests/controller/support/lqr_seed.hpp"
 #include "tests/model/robot_fixture.hpp"
 #include "tests/solver/support/allocation_counter.hpp"
 
@@ -46,22 +47,12 @@ class MpcEngineTest : public testing::Test {
     s.yaw_weight = one(5);
     return s;
   }
-  MpcPolicy seedFor(const MpcEngine& engine) const {
-    MpcPolicy seed = engine.emptyPolicy();
-    for (auto& knot : seed.knots()) knot.x << lqr_.equilibrium.x, Vector3::Zero();
-    for (auto& control : seed.controls()) {
-      control.u << lqr_.equilibrium.tau, ContactInput::Zero();
-      control.K.topLeftCorner<kJointCount, kStateDim>() = lqr_.K;
-    }
-    seed.setValid(kSimStart);
-    return seed;
-  }
   MpcSolveReport converged(MpcConfig::Engine kind, double step, MpcPolicy* plan = nullptr) {
     config_.engine = kind;
     config_.horizon.coarse_step = step;
     const auto engine = makeEngine(robot_, config_);
     MpcPolicy out = engine->emptyPolicy();
-    const MpcSolveReport report = engine->solve(kSimStart, x0_, seedFor(*engine), 60, out);
+    const MpcSolveReport report = engine->solve(kSimStart, x0_, lqrSeed(*engine, lqr_), 60, out);
     if (plan) *plan = out;
     return report;
   }
@@ -162,7 +153,7 @@ TEST_F(MpcEngineTest, ASecondSolveOfTheDiscreteEngineDoesNotAllocate) {
   config_.schedule = std::make_shared<TaskSchedule>(schedule);
   const auto engine = makeEngine(robot_, config_);
   MpcPolicy first = engine->emptyPolicy(), second = first;
-  const MpcPolicy seed = seedFor(*engine);
+  const MpcPolicy seed = lqrSeed(*engine, lqr_);
   const auto before = allocationCount();
   ASSERT_TRUE(engine->solve(kSimStart, x0_, seed, 5, first).ok());
   ASSERT_TRUE(
@@ -178,7 +169,7 @@ TEST_F(MpcEngineTest, EqualInputsGiveEqualBitsWhateverWasSolvedBefore) {
     config_.engine = kind;
     const auto used = makeEngine(robot_, config_), fresh = makeEngine(robot_, config_);
     MpcPolicy a = used->emptyPolicy(), b = a;
-    const MpcPolicy seed = seedFor(*used);
+    const MpcPolicy seed = lqrSeed(*used, lqr_);
     MpcState elsewhere = x0_;
     elsewhere[kBallX] += 0.3;
     ASSERT_TRUE(used->solve(simTimeFromNs(5'000'000), elsewhere, seed, 3, a).ok());

@@ -3,6 +3,7 @@
 #include "controller/mpc_planner.hpp"
 #include "controller/push_belief.hpp"
 #include "controller/pushed_problem.hpp"
+#include "tests/controller/support/lqr_seed.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
@@ -71,15 +72,8 @@ class PushedPlan : public testing::Test {
     PlanConditions pushed;
     pushed.push = push;
     engine->setConditions(pushed);
-    MpcPolicy seed = engine->emptyPolicy();
-    for (auto& knot : seed.knots()) knot.x << lqr_.equilibrium.x, Vector3::Zero();
-    for (auto& control : seed.controls()) {
-      control.u << lqr_.equilibrium.tau, ContactInput::Zero();
-      control.K.topLeftCorner<kJointCount, kStateDim>() = lqr_.K;
-    }
-    seed.setValid(kSimStart);
     out = engine->emptyPolicy();
-    return engine->solve(kSimStart, x0_, seed, 60, out);
+    return engine->solve(kSimStart, x0_, lqrSeed(*engine, lqr_), 60, out);
   }
 
   RobotParameters robot_ = exampleRobot();
