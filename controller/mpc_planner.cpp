@@ -244,9 +244,14 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
   if (!fresh) seedFrom(stand_in, now, x[kYaw]);
   MpcState x0;
   x0 << x, xf;
-  const MpcSolveReport slq =
-      engine_->solve(now, x0, fresh ? previous : seed_,
-                     fresh ? config_.iterations : config_.first_iterations, out);
+  MpcSolveReport slq = engine_->solve(now, x0, fresh ? previous : seed_,
+                                      fresh ? config_.iterations : config_.first_iterations, out);
+  if (fresh && !slq.ok()) {
+    // After a jump of the state or of what acts the last plan may lead nowhere: begin anew at once.
+    seedFrom(stand_in, now, x[kYaw]);
+    engine_->setShift(SlqOptions{}.base_shift);
+    slq = engine_->solve(now, x0, seed_, config_.first_iterations, out);
+  }
   if (slq.ok()) out.integrateJoints(dynamics_, joint_angle);
 
   report.accepted = slq.ok();

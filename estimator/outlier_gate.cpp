@@ -34,8 +34,10 @@ void GateSettings::describe(ConfigVisitor& v) {
 }
 
 bool SpikeGate::accepts(const Vector3& sample) noexcept {
-  const bool ok =
-      !started_ || (sample - accepted_).norm() < jump_ || (sample - last_).norm() < jump_;
+  const bool ok = !started_ || (sample - accepted_).norm() < jump_ ||
+                  (sample - last_).norm() < jump_ ||
+                  (sample - last_ - (last_ - before_last_)).norm() < jump_;
+  before_last_ = started_ ? last_ : sample;
   last_ = sample;
   if (ok) accepted_ = sample;
   started_ = true;
@@ -86,15 +88,18 @@ void WheelGate::settle(const Vector3& off, const IntervalMeasurement& m,
     wheel.standing = m.wheel_increment[i] == 0 ? wheel.standing + 1 : 0;
     const double limit = settings_.wheel_gate_sigma;
     wheel.mean += kMeanGain * (std::clamp(off[i], -limit, limit) - wheel.mean);
+    if (wheel.standing == 0) wheel.stuck = false;
     if (!used[at]) {
       const bool stuck = refused == 1 && wheel.standing >= kStandingLong;
+      wheel.stuck |= stuck;
       counts.add(stuck             ? Rejection::kWheel1Stuck
                  : wheel.suspended ? Rejection::kWheel1Slip
                                    : Rejection::kWheel1Outlier,
                  i);
     }
     const double threshold = settings_.wheel_slip_sigma * (wheel.suspended ? 0.5 : 1.0);
-    wheel.suspended = std::abs(wheel.mean) > threshold;
+    // An encoder that is stuck agrees with a wheel that happens to stand.
+    wheel.suspended = wheel.stuck || std::abs(wheel.mean) > threshold;
   }
   if (measured > 0) refused_s_ = refused >= 2 ? refused_s_ + m.h : 0.0;
 }

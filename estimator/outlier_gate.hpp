@@ -24,8 +24,10 @@ struct GateSettings {
   void describe(ConfigVisitor& v);
 };
 
-/// A sample that jumps from the last accepted one is refused once; if the next agrees with it, the
-/// jump was real. So a spike never passes and a true step costs one sample.
+/// A sample that jumps from the last accepted one is refused once; if the next agrees with it, or
+/// jumps as far again, the jump was real. So a spike never passes, a true step costs one sample,
+/// and so does the start of an acceleration too fast for the limit (an arm that swings turns the
+/// base by 80 rad/s^2, 0.2 rad/s from one sample to the next).
 class SpikeGate {
  public:
   explicit SpikeGate(double jump) : jump_(jump) {}
@@ -36,6 +38,7 @@ class SpikeGate {
     visit(self.started_);
     visit(self.accepted_);
     visit(self.last_);
+    visit(self.before_last_);
   }
 
  private:
@@ -43,6 +46,7 @@ class SpikeGate {
   bool started_ = false;
   Vector3 accepted_ = Vector3::Zero();
   Vector3 last_ = Vector3::Zero();
+  Vector3 before_last_ = Vector3::Zero();
 };
 
 /// Decides which wheels an update may use. Residuals are judged in standard deviations of what the
@@ -80,12 +84,14 @@ class WheelGate {
   struct Wheel {
     double mean = 0;  ///< of the standardised residual
     bool suspended = false;
-    int standing = 0;  ///< intervals without any motion so far
+    bool stuck = false;  ///< stood while the robot said it turned, and has not moved since
+    int standing = 0;    ///< intervals without any motion so far
 
     template <typename Self, typename Visitor>
     static void visitState(Self& self, Visitor& visit) {
       visit(self.mean);
       visit(self.suspended);
+      visit(self.stuck);
       visit(self.standing);
     }
   };

@@ -12,7 +12,7 @@ namespace {
 
 template <int kDim>
 constexpr const char* kBlobKind = kDim > kTanSpin ? "two_state_spin_filter" : "two_state_filter";
-constexpr std::uint32_t kBlobVersion = 4;
+constexpr std::uint32_t kBlobVersion = 5;
 /// Of an IMU: a counter that jumps must not make a millisecond a thousand intervals.
 constexpr SimDuration kShortestPeriod{100'000};
 constexpr double kLargestYawSigma = 0.1;  // [rad]

@@ -8,6 +8,7 @@
 
 #include "estimator/information_filter.hpp"
 #include "estimator/rejections.hpp"
+#include "estimator/spin_gate.hpp"
 #include "tests/estimator/support/smooth_motion.hpp"
 
 namespace ballbot::test {
@@ -22,6 +23,16 @@ TEST(SpikeGate, StopsASpikeAndPassesAStepOneSampleLate) {
   EXPECT_FALSE(gate.accepts(high));  // a step
   EXPECT_TRUE(gate.accepts(high));
   EXPECT_TRUE(gate.accepts(high));
+}
+
+TEST(SpikeGate, PassesAnAccelerationBeyondItsLimitOneSampleLate) {
+  SpikeGate gate(0.15);
+  const auto at = [](double rate) { return Vector3(0, 0, rate); };
+  EXPECT_TRUE(gate.accepts(at(0)));
+  EXPECT_FALSE(gate.accepts(at(0.2)));  // may be a spike
+  for (int i = 2; i < 20; ++i) EXPECT_TRUE(gate.accepts(at(0.2 * i))) << i;
+  EXPECT_FALSE(gate.accepts(at(9)));
+  EXPECT_TRUE(gate.accepts(at(3.8)));
 }
 
 /// A filter on a robot standing still, fed with one increment of wheel 2 at a time.
@@ -92,6 +103,37 @@ TEST_F(WheelGateTest, SurvivesAnUpdateThatCannotBeSolved) {
   for (int i = 0; i < 200; ++i) step(0);
   EXPECT_TRUE(filter_.information().allFinite());
   EXPECT_LT(filter_.state().v_WK_W.norm(), 1e-6);
+}
+
+TEST(WheelGate, LeavesAStuckEncoderOutWhileItsWheelHappensToStand) {
+  WheelGate gate(GateSettings{});
+  RejectionCounts counts;
+  IntervalMeasurement m;
+  m.h = 2.5e-3;
+  m.has_wheel.fill(true);
+  m.wheel_increment << 0.01, 0, -0.01;
+  Vector3 off(0, 10, 0);
+  for (int i = 0; i < 20; ++i) gate.settle(off, m, {true, false, true}, counts);
+  EXPECT_GT(counts[Rejection::kWheel2Stuck], 10);
+  off.setZero();
+  for (int i = 0; i < 200; ++i) gate.settle(off, m, gate.usable(m.has_wheel), counts);
+  EXPECT_FALSE(gate.usable(m.has_wheel)[1]);
+  m.wheel_increment[1] = 0.01;
+  gate.settle(off, m, gate.usable(m.has_wheel), counts);
+  EXPECT_TRUE(gate.usable(m.has_wheel)[1]);
+}
+
+TEST(SpinGate, TakesWhatTwoWheelsHaveInCommonForNoSpin) {
+  const auto begins = [](const std::array<bool, kWheelCount>& used) {
+    SpinGate gate(SpinSettings{});
+    for (int i = 0; i < 50 && !gate.spinning(); ++i) {
+      gate.settle(used, false, 2.0, 0.1);
+      gate.follow(0.1);
+    }
+    return gate.spinning();
+  };
+  EXPECT_TRUE(begins({true, true, true}));
+  EXPECT_FALSE(begins({true, false, true}));
 }
 
 TEST(Rejections, HaveNamesOfTheirOwn) {

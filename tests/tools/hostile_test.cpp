@@ -124,14 +124,28 @@ TEST(HostilePeers, AskingForALongStepDoNotKeepThePlantFromEnding) {
   EXPECT_EQ(plant.finish(10).exit_code, 130);
 }
 
+// The verb that process `pid` was started with; of a child that was forked and did not call exec
+// yet, its parent's.
+std::string verbOf(pid_t pid) {
+  std::ifstream in("/proc/" + std::to_string(pid) + "/cmdline");
+  std::string program, verb;
+  std::getline(std::getline(in, program, '\0'), verb, '\0');
+  return verb;
+}
+
 TEST(ChildProcess, OfAKilledRunDiesEvenWhereItIsStopped) {
   const TemporaryFolder folder;
   pid_t plant = -1;
   {
     Program run(
         {"run", scenarioPath("balance"), "--quiet", "--no-report", "--out", folder / "run"});
-    ASSERT_TRUE(waitFor([&] { return !run.children().empty(); }));
-    plant = run.children().front();
+    // Between fork and exec it asks to die with its parent: one stopped before that never would.
+    ASSERT_TRUE(waitFor([&] {
+      const std::vector<pid_t> children = run.children();
+      if (children.empty()) return false;
+      plant = children.front();
+      return verbOf(plant) == "plant";
+    }));
     ::kill(plant, SIGSTOP);
   }  // killed here
   // As a zombie it is dead, too, where nobody collects it.
