@@ -1,5 +1,7 @@
 #include "controller/constraints.hpp"
 
+#include <algorithm>
+
 #include "core/angle.hpp"
 #include "core/config_visitor.hpp"
 
@@ -17,19 +19,21 @@ void describeBarrier(ConfigVisitor& v, RelaxedBarrier& barrier) {
 
 }  // namespace
 
-Constraints::Constraints(const RobotParameters& robot) {
-  takeShares(robot);
-  for (int i = 0; i < kArmJointCount; ++i) {
-    arm_lower[i] = robot.arm[i].lower_limit;
-    arm_upper[i] = robot.arm[i].upper_limit;
-  }
-}
+Constraints::Constraints(const RobotParameters& robot) { takeShares(robot); }
 
 void Constraints::takeShares(const RobotParameters& robot) {
   torque_limit << Vector3::Constant(robot.wheel_torque_limit),
       Vector3::Constant(robot.arm_torque_limit);
   torque_limit *= torque_share;
   wheel_rate_limit = wheel_rate_share * robot.wheel_speed_limit;
+  for (int i = 0; i < kArmJointCount; ++i) {
+    const ArmLink& joint = robot.arm[i];
+    // Of a range too narrow for it the middle half is left.
+    const double margin =
+        std::min(arm_position_margin, 0.25 * (joint.upper_limit - joint.lower_limit));
+    arm_lower[i] = joint.lower_limit + margin;
+    arm_upper[i] = joint.upper_limit - margin;
+  }
 }
 
 void Constraints::describe(ConfigVisitor& v) {
@@ -49,7 +53,11 @@ void Constraints::describe(ConfigVisitor& v) {
                         cone_epsilon, {1e-3, 1e3});
             });
   v.section(may("arm_position_limits", "barrier at the stops of the arm's joints"),
-            [&](ConfigVisitor& in) { describeBarrier(in, arm_position); });
+            [&](ConfigVisitor& in) {
+              describeBarrier(in, arm_position);
+              in.number(may("margin_rad", "distance from the stops at which the barrier stands"),
+                        arm_position_margin, {0, 1});
+            });
   v.section(may("arm_rate_limits", "barrier at the largest speed of the arm's joints"),
             [&](ConfigVisitor& in) {
               describeBarrier(in, arm_rate);

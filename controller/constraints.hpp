@@ -20,8 +20,9 @@ struct Constraints {
   double cone_epsilon = 1;  ///< [N]
   RelaxedBarrier cone{0.1, 0.5};
 
+  double arm_position_margin = 0.05;  ///< that plans keep from the stops, for what drives lag [rad]
   Vector3 arm_lower = Vector3::Zero(), arm_upper = Vector3::Zero();  ///< [rad]
-  RelaxedBarrier arm_position{0.05, 0.01};
+  RelaxedBarrier arm_position{0.05, 0.003};
 
   double arm_rate_limit = 6;  ///< [rad/s]
   RelaxedBarrier arm_rate{0.02, 0.5};
@@ -48,7 +49,7 @@ struct Constraints {
   void takeFloor(double held) noexcept {
     spin_torque_limit = held < kUnlimited ? spin_torque_share * held : kUnlimited;
   }
-  /// Sets the limits that are shares of the robot's; to be called again after a share was read.
+  /// Sets the limits that follow from the robot's; to be called again after a share was read.
   void takeShares(const RobotParameters& robot);
 };
 

@@ -6,7 +6,7 @@ namespace ballbot {
 
 /// How what the model does not know of lasting forces is learned and counted on.
 struct OffsetFree {
-  bool enabled = false;
+  bool enabled = true;
   double time_constant = 1;  ///< of what is learned [s]
   /// A force counts as lasting once it has not changed for so long [s] ...
   double settled_after = 0.5;

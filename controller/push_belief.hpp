@@ -9,7 +9,7 @@ class ConfigVisitor;
 
 /// What is made of a force that acts now and that neither model nor contact explains: a push.
 struct PushBelief {
-  bool counted_on = false;
+  bool counted_on = true;
   /// Time over which plans let it fade [s].
   double lasts = 0.5;
   /// Forces along the floor and moments about the ball's centre that are none yet: noise, and what

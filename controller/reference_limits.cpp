@@ -26,11 +26,12 @@ void requireArm(const TaskSchedule& schedule, const Constraints& c, const RobotP
   for (const double t : schedule.arm_position.turningTimes()) {
     const Vector3 arm = schedule.arm_position.value(t);
     for (int i = 0; i < kArmJointCount; ++i) {
-      if (arm[i] >= c.arm_lower[i] && arm[i] <= c.arm_upper[i]) continue;
+      const ArmLink& joint = robot.arm[i];  // a pose nearer than the plan's margin is approached
+      if (arm[i] >= joint.lower_limit && arm[i] <= joint.upper_limit) continue;
       throw InputError(
           fmt::format("{} for {:.4g} rad of joint {} ('{}'), must be between {} and {}",
-                      asksAt(tasks, "arm_position", t), arm[i], i + 1, robot.arm[i].name,
-                      c.arm_lower[i], c.arm_upper[i]));
+                      asksAt(tasks, "arm_position", t), arm[i], i + 1, joint.name,
+                      joint.lower_limit, joint.upper_limit));
     }
     requireStaticTorque(robot, arm, c.torque_limit,
                         fmt::format("{} at {:g} s", tasks.at("arm_position"), t));

@@ -71,10 +71,8 @@ void SpinGate::settle(const std::array<bool, kWheelCount>& used, bool jumped, do
   if (!spinning_) {
     common_mean_ += kMeanGain * (std::clamp(common, -kLargestOff, kLargestOff) - common_mean_);
   }
-  // A wheel that slips has a common part too, but is itself further off; and what two wheels have
-  // in common may as well be a velocity across the third.
-  const bool all = std::all_of(used.begin(), used.end(), [](bool use) { return use; });
-  common_leads_ = all && std::abs(common_mean_) > largest_wheel_mean;
+  // A wheel that slips has a common part too, but is itself further off.
+  common_leads_ = std::abs(common_mean_) > largest_wheel_mean;
 }
 
 void SpinGate::follow(double spin) noexcept {

@@ -74,7 +74,7 @@ class SpinGate {
   SpinSettings settings_;
   bool spinning_ = false;
   bool jumped_ = false;        ///< in the last interval
-  bool common_leads_ = false;  ///< what all wheels have in common is more than any is off alone
+  bool common_leads_ = false;  ///< what wheels have in common is more than any is off alone
   std::array<bool, kWheelCount> used_{};
   double common_mean_ = 0;  ///< of `used_`, while it sticks [standard deviations]
   double spin_mean_ = 0;    ///< while it spins [rad/s]

@@ -23,10 +23,15 @@ ContactMetrics contactMetrics(const RunConfig& config) {
 RobotLimits limitsOf(const RunConfig& config) {
   const RobotParameters& robot = config.believedRobot();
   const Constraints c = config.controller.law->limits();
+  Vector3 lower, upper;  // the stops themselves: plans keep a margin from them
+  for (int i = 0; i < kArmJointCount; ++i) {
+    lower[i] = robot.arm[i].lower_limit;
+    upper[i] = robot.arm[i].upper_limit;
+  }
   return {robot.wheel_torque_limit,
           robot.arm_torque_limit,
-          c.arm_lower,
-          c.arm_upper,
+          lower,
+          upper,
           c.arm_rate_limit,
           c.tilt_limit};
 }

@@ -11,16 +11,10 @@
 namespace ballbot {
 namespace {
 
-OffsetFree enabled() {
-  OffsetFree settings;
-  settings.enabled = true;
-  return settings;
-}
-
 /// Frames of 2.5 ms with what the model does not explain.
 class Felt {
  public:
-  explicit Felt(const OffsetFree& settings = enabled()) : lasting(exampleRobot(), settings) {}
+  explicit Felt(const OffsetFree& settings = OffsetFree{}) : lasting(exampleRobot(), settings) {}
   void run(double seconds, const VelocityVector& residual, bool explained = false) {
     for (int n = 0; n < std::lround(seconds / 0.0025); ++n) {
       now_ += SimDuration(2'500'000);
@@ -75,7 +69,7 @@ TEST(LastingForce, WhatIsExplainedOtherwiseIsNotLearned) {
 }
 
 TEST(LastingForce, IsBoundedRowByRow) {
-  OffsetFree settings = enabled();
+  OffsetFree settings;
   settings.force_limit_N = 5;
   settings.moment_limit_Nm = 2;
   settings.arm_limit_Nm = 1;
@@ -84,8 +78,10 @@ TEST(LastingForce, IsBoundedRowByRow) {
   EXPECT_EQ(robot.lasting.forces().rest, force(5, -2, 1));
 }
 
-TEST(LastingForce, DoesNothingUnlessAsked) {
-  Felt robot{OffsetFree()};
+TEST(LastingForce, DoesNothingWhereItIsOff) {
+  OffsetFree off;
+  off.enabled = false;
+  Felt robot(off);
   robot.run(5, force(8, 3, 2));
   EXPECT_EQ(robot.lasting.forces().rest, VelocityVector::Zero());
 }
@@ -110,7 +106,7 @@ void hang(LastingForce& lasting, SimTime& now, double seconds, double mass, doub
 }
 
 TEST(LastingForce, AMassInTheHandIsLearnedBeforeTheRest) {
-  LastingForce lasting(exampleRobot(), enabled());
+  LastingForce lasting(exampleRobot(), OffsetFree{});
   SimTime now = kSimStart;
   hang(lasting, now, 0.4, 2);
   EXPECT_EQ(lasting.forces().hand_mass, 0);
@@ -125,7 +121,7 @@ TEST(LastingForce, AMassInTheHandIsLearnedBeforeTheRest) {
 }
 
 TEST(LastingForce, WhatIsTouchedIsNoMassInTheHand) {
-  LastingForce lasting(exampleRobot(), enabled());
+  LastingForce lasting(exampleRobot(), OffsetFree{});
   SimTime now = kSimStart;
   hang(lasting, now, 5, 0.2, 4);
   EXPECT_LT(lasting.forces().hand_mass, 0.01);
@@ -135,7 +131,7 @@ TEST(LastingForce, WhatIsTouchedIsNoMassInTheHand) {
 TEST(LastingForce, AHandThatIsEmptierThanToldHoldsNoLessThanNothing) {
   RobotParameters robot = exampleRobot();
   robot.payload_mass = 0.5;
-  LastingForce lasting(robot, enabled());
+  LastingForce lasting(robot, OffsetFree{});
   SimTime now = kSimStart;
   hang(lasting, now, 8, -0.5);
   EXPECT_NEAR(lasting.handMass(), 0, 0.01);

@@ -11,12 +11,6 @@ namespace {
 
 SimTime at(double ms) { return simTimeFromNs(static_cast<std::int64_t>(ms * 1e6)); }
 
-PushBelief counted() {
-  PushBelief out;
-  out.counted_on = true;
-  return out;
-}
-
 VelocityVector alongX(double force) {
   VelocityVector out = VelocityVector::Zero();
   out[kBallVx] = force;
@@ -25,7 +19,7 @@ VelocityVector alongX(double force) {
 }
 
 TEST(PushEstimate, BeginsAtZeroAndIsWholeAtHalfAsMuchAgain) {
-  PushEstimate push(counted());
+  PushEstimate push(PushBelief{});
   const double least = push.settings().least_force;
   push.update(at(0), alongX(least), false);
   EXPECT_EQ(push.force(), VelocityVector(VelocityVector::Zero()));
@@ -39,13 +33,15 @@ TEST(PushEstimate, BeginsAtZeroAndIsWholeAtHalfAsMuchAgain) {
 }
 
 TEST(PushEstimate, IsNothingAfterAMeasurementWasRefusedAndUnlessAskedFor) {
-  PushEstimate push(counted());
+  PushEstimate push(PushBelief{});
   push.update(at(0), alongX(60), true);
   push.update(at(147.5), alongX(60), false);
   EXPECT_TRUE(push.force().isZero(0));
   push.update(at(150), alongX(60), false);
   EXPECT_DOUBLE_EQ(push.force()[kBallVx], 60);
-  PushEstimate unasked{PushBelief{}};
+  PushBelief ignored;
+  ignored.counted_on = false;
+  PushEstimate unasked(ignored);
   unasked.update(at(0), alongX(60), false);
   EXPECT_TRUE(unasked.force().isZero(0));
 }

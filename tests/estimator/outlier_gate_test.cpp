@@ -8,7 +8,6 @@
 
 #include "estimator/information_filter.hpp"
 #include "estimator/rejections.hpp"
-#include "estimator/spin_gate.hpp"
 #include "tests/estimator/support/smooth_motion.hpp"
 
 namespace ballbot::test {
@@ -121,19 +120,6 @@ TEST(WheelGate, LeavesAStuckEncoderOutWhileItsWheelHappensToStand) {
   m.wheel_increment[1] = 0.01;
   gate.settle(off, m, gate.usable(m.has_wheel), counts);
   EXPECT_TRUE(gate.usable(m.has_wheel)[1]);
-}
-
-TEST(SpinGate, TakesWhatTwoWheelsHaveInCommonForNoSpin) {
-  const auto begins = [](const std::array<bool, kWheelCount>& used) {
-    SpinGate gate(SpinSettings{});
-    for (int i = 0; i < 50 && !gate.spinning(); ++i) {
-      gate.settle(used, false, 2.0, 0.1);
-      gate.follow(0.1);
-    }
-    return gate.spinning();
-  };
-  EXPECT_TRUE(begins({true, true, true}));
-  EXPECT_FALSE(begins({true, false, true}));
 }
 
 TEST(Rejections, HaveNamesOfTheirOwn) {
