@@ -1,8 +1,16 @@
 #include "controller/lost_wheels.hpp"
 
+#include <algorithm>
+
 #include "core/config_visitor.hpp"
 
 namespace ballbot {
+namespace {
+
+constexpr SimDuration kSoon = std::chrono::seconds(1);
+constexpr int kMostBetrayals = 4;
+
+}  // namespace
 
 void WheelLoss::describe(ConfigVisitor& v) {
   v.boolean(may("counted_out",
@@ -12,7 +20,8 @@ void WheelLoss::describe(ConfigVisitor& v) {
   v.duration(may("after_ms", "how long the estimator refuses a wheel until it counts as lost"),
              after, {1, 1e3});
   v.duration(may("trusted_after_ms",
-                 "how long the estimator believes a lost wheel until it is counted on again"),
+                 "how long the estimator believes a lost wheel until it is counted on again; twice "
+                 "as long each time that it slips again within a second"),
              trusted_after, {1, 1e4});
 }
 
@@ -24,7 +33,10 @@ bool LostWheels::update(SimTime now, const WheelFlags& refused) noexcept {
       refused_[i] = refused[i];
       since_[i] = now;
     }
-    if (lost_[i] && !refused_[i] && now - since_[i] >= settings_.trusted_after) lost_[i] = false;
+    if (lost_[i] && !refused_[i] && now - since_[i] >= trustedAfter(i)) {
+      lost_[i] = false;
+      trusted_since_[i] = now;
+    }
   }
   // Several at once are a state that fits nothing: then none is lost, and none was.
   if (std::count(refused_.begin(), refused_.end(), true) > 1) lost_ = {};
@@ -32,6 +44,8 @@ bool LostWheels::update(SimTime now, const WheelFlags& refused) noexcept {
     if (any() || !refused_[i] || now - since_[i] < settings_.after) continue;
     if (std::count(refused_.begin(), refused_.end(), true) > 1) break;
     lost_[i] = true;
+    const bool again = trusted_since_[i] > SimTime{} && now - trusted_since_[i] < kSoon;
+    betrayals_[i] = again ? std::min(betrayals_[i] + 1, kMostBetrayals) : 0;
     ++losses_;
   }
   return lost_ != before;

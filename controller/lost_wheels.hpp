@@ -13,7 +13,8 @@ struct WheelLoss {
   /// Refused by the estimator for so long without a break, it slips.
   SimDuration after = std::chrono::milliseconds(20);
   /// Believed for so long without a break, it grips again: without torque a wheel that slips soon
-  /// turns with the ball, and would be trusted too early.
+  /// turns with the ball, and would be trusted too early. Twice as long each time that trust is
+  /// betrayed within a second.
   SimDuration trusted_after = std::chrono::milliseconds(100);
 
   void describe(ConfigVisitor& v);
@@ -40,14 +41,22 @@ class LostWheels {
     visit(self.lost_);
     visit(self.refused_);
     visit(self.since_);
+    visit(self.trusted_since_);
+    visit(self.betrayals_);
     visit(self.losses_);
   }
 
  private:
   WheelLoss settings_;
   WheelFlags lost_{}, refused_{};
-  std::array<SimTime, kWheelCount> since_{};  ///< when refused_ became what it is
+  std::array<SimTime, kWheelCount> since_{};          ///< when refused_ became what it is
+  std::array<SimTime, kWheelCount> trusted_since_{};  ///< after its last loss
+  std::array<int, kWheelCount> betrayals_{};          ///< in a row
   std::int64_t losses_ = 0;
+
+  SimDuration trustedAfter(std::size_t wheel) const noexcept {
+    return settings_.trusted_after * (1 << betrayals_[wheel]);
+  }
 };
 
 }  // namespace ballbot

@@ -12,7 +12,7 @@ namespace ballbot {
 namespace {
 
 constexpr const char* kBlobKind = "controller";
-constexpr std::uint32_t kBlobVersion = 9;
+constexpr std::uint32_t kBlobVersion = 10;
 
 /// Whatever a lost wheel is asked for moves nothing, and would only make it race.
 void withoutLost(const WheelFlags& lost, ActuatorCommand& command) noexcept {

@@ -33,6 +33,23 @@ TEST(LostWheels, AreThoseRefusedWithoutABreak) {
   EXPECT_EQ(wheels.losses(), 1);
 }
 
+TEST(LostWheels, AreBelievedLaterEachTimeThatTheySlipAgain) {
+  LostWheels wheels{WheelLoss{}};
+  const WheelFlags first{true, false, false}, none{};
+  double ms = 0;
+  const auto untilTrusted = [&] {
+    for (const double begin = ms; ms < begin + 30; ms += 2.5) wheels.update(at(ms), first);
+    EXPECT_TRUE(wheels.any());
+    const double begin = ms;
+    for (; wheels.any(); ms += 2.5) wheels.update(at(ms), none);
+    return ms - 2.5 - begin;
+  };
+  for (const double expected : {100, 200, 400, 800, 1600, 1600})
+    EXPECT_EQ(untilTrusted(), expected);
+  for (const double begin = ms; ms < begin + 1100; ms += 2.5) wheels.update(at(ms), none);
+  EXPECT_EQ(untilTrusted(), 100) << "long ago";
+}
+
 TEST(LostWheels, SeveralAtOnceAreAStateThatFitsNothing) {
   LostWheels wheels{WheelLoss{}};
   for (double ms = 0; ms < 100; ms += 2.5) {
