@@ -115,8 +115,14 @@ double learned(const std::string& run) {
   const TemporaryFolder folder;
   runBallbot({"export", run, "--csv", folder / "csv"});
   const std::string text = readFile(folder / "csv/estimate.csv");
-  const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
-  return std::stod(last.substr(last.rfind(',') + 1));
+  std::istringstream names(text.substr(0, text.find('\n')));
+  std::istringstream values(text.substr(text.rfind('\n', text.size() - 2) + 1));
+  for (std::string name, value;
+       std::getline(names, name, ',') && std::getline(values, value, ',');) {
+    if (name.rfind("floor_spin_torque_held", 0) == 0) return std::stod(value);
+  }
+  ADD_FAILURE() << "no column of what the floor holds";
+  return 0;
 }
 
 // The robot is on good floor, rolls onto a patch that holds little, turns there, and comes back.
