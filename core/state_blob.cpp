@@ -28,7 +28,7 @@ void BlobWriter::putBytes(const void* bytes, std::size_t count) {
 }
 
 void BlobWriter::putDoubles(const double* values, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) put(values[i]);
+  putBytes(values, count * sizeof *values);
 }
 
 void BlobWriter::putVector(const std::vector<double>& values) {

@@ -15,6 +15,8 @@ using StateBlob = std::vector<std::uint8_t>;
 /// Writes plain values one after the other; seal() adds the header and the checksum.
 class BlobWriter {
  public:
+  BlobWriter() { body_.reserve(4096); }  // as much as most states take: grown once at most
+
   template <typename T>
   void put(const T& value) {
     static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>, "plain values only");
