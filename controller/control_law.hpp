@@ -58,6 +58,7 @@ struct PlanReport {
   double constraint_violation = 0;
   PlanStatus status = PlanStatus::kNothingToSolve;
   bool fallback = false;          ///< the law's simple stand-in is in force, for lack of a plan
+  bool begun_anew = false;        ///< from the LQR, as the last plan led nowhere
   bool command_cut = false;       ///< less was planned for than a task asks at its start
   double predicted_decrease = 0;  ///< of the cost, by the quadratic model
   double regularisation = 0;      ///< added to the diagonal of the input Hessian

@@ -35,10 +35,6 @@ void DisturbedProblem<NU>::addTorqueCost(int k, const X& x, const U& u,
     terms.value[kWheelTorqueCost] +=
         0.5 * tasks.wheel_torque_weight * (f.cost(xf - s, u[i] - s) - f.cost(xf, u[i]));
   }
-  for (int i = kWheelCount; i < kJointCount; ++i) {
-    const double s = load_.shift[i];
-    terms.value[kArmTorqueCost] += 0.5 * f.H * tasks.arm_torque_weight * s * (s - 2 * u[i]);
-  }
 }
 
 template <int NU>
@@ -64,9 +60,6 @@ void DisturbedProblem<NU>::approximate(int first, int count, const X* x, const U
       r[j] -= ws * (f.H + f.c1);
       q[kStateDim + j] += ws * f.c1;
     }
-    for (int j = kWheelCount; j < kJointCount; ++j) {
-      r[j] -= f.H * tasks.arm_torque_weight * load_.shift[j];
-    }
   }
 }
 
@@ -82,12 +75,10 @@ void DisturbedContinuousProblem<NU>::addCostRate(const X& x, const U& u,
   this->inner().addCostRate(x, u, terms);
   const Tasks& tasks = whole_body_.tasks();
   const double rho = shaping_.rho();
-  for (int i = 0; i < kJointCount; ++i) {
+  for (int i = 0; i < kWheelCount; ++i) {
     const double s = load_.shift[i];
-    const bool wheel = i < kWheelCount;
-    const double shaped = wheel ? rho * u[i] - (rho - 1) * x[kStateDim + i] : u[i];
-    terms.value[wheel ? kWheelTorqueCost : kArmTorqueCost] +=
-        0.5 * (wheel ? tasks.wheel_torque_weight : tasks.arm_torque_weight) * s * (s - 2 * shaped);
+    const double shaped = rho * u[i] - (rho - 1) * x[kStateDim + i];
+    terms.value[kWheelTorqueCost] += 0.5 * tasks.wheel_torque_weight * s * (s - 2 * shaped);
   }
 }
 
@@ -104,9 +95,6 @@ void DisturbedContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
     const double ws = tasks.wheel_torque_weight * load_.shift[i];
     r[i] -= ws * rho;
     q[kStateDim + i] += ws * (rho - 1);
-  }
-  for (int i = kWheelCount; i < kJointCount; ++i) {
-    r[i] -= tasks.arm_torque_weight * load_.shift[i];
   }
 }
 

@@ -10,7 +10,8 @@
 namespace ballbot {
 
 /// A problem of a robot on which a force acts that lasts: its acceleration is part of the motion,
-/// and torques cost as much as they differ from those without it by what it takes to stand still.
+/// and the wheels' torques cost as much as they differ from those without it by what it takes to
+/// stand still. (The arm's are counted from there anyway: Tasks::arm_torque.)
 template <int NU>
 class DisturbedProblem final : public WrappedProblem<NU> {
  public:

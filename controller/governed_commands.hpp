@@ -15,6 +15,9 @@ struct GovernedCommands {
   GovernedCommand<1> yaw;                           ///< [rad]
   GovernedCommand<3> arm_position;                  ///< [rad]
   std::array<GovernedAdded, kMaxAddedTasks> added;  ///< in the order of the schedule's
+  /// With which the arm stands still where it is: what its torques cost is counted from there
+  /// [N m].
+  Vector3 arm_rest_torque = Vector3::Zero();
   /// The longest force that the end-effector is asked to push with [N].
   double push = std::numeric_limits<double>::infinity();
 };

@@ -23,11 +23,18 @@ void WheelLoss::describe(ConfigVisitor& v) {
                  "how long the estimator believes a lost wheel until it is counted on again; twice "
                  "as long each time that it slips again within a second"),
              trusted_after, {1, 1e4});
+  drives.describe(v);
 }
 
-bool LostWheels::update(SimTime now, const WheelFlags& refused) noexcept {
+bool LostWheels::update(SimTime now, const WheelFlags& refused, const WheelFlags& dead) noexcept {
   if (!settings_.counted_out) return false;
   const WheelFlags before = lost_;
+  if (const auto first = std::find(dead.begin(), dead.end(), true); first != dead.end()) {
+    lost_ = {};
+    lost_[static_cast<std::size_t>(first - dead.begin())] = true;
+    if (lost_ != before) ++losses_;
+    return lost_ != before;
+  }
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     if (refused[i] != refused_[i]) {
       refused_[i] = refused[i];

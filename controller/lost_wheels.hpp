@@ -1,5 +1,6 @@
 #pragma once
 
+#include "controller/dead_drives.hpp"
 #include "core/time.hpp"
 #include "model/wheel_flags.hpp"
 
@@ -16,6 +17,7 @@ struct WheelLoss {
   /// turns with the ball, and would be trusted too early. Twice as long each time that trust is
   /// betrayed within a second.
   SimDuration trusted_after = std::chrono::milliseconds(100);
+  DriveLoss drives;
 
   void describe(ConfigVisitor& v);
 };
@@ -29,8 +31,9 @@ class LostWheels {
 
   /// One frame of the estimator.
   /// @param refused  turn as the ball does not: what the estimator refuses of wheels that turn
+  /// @param dead     get no torque: the first of them is lost for good
   /// @return whether something changed
-  bool update(SimTime now, const WheelFlags& refused) noexcept;
+  bool update(SimTime now, const WheelFlags& refused, const WheelFlags& dead = {}) noexcept;
 
   const WheelFlags& lost() const noexcept { return lost_; }
   bool any() const noexcept { return ballbot::any(lost_); }

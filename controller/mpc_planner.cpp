@@ -225,6 +225,16 @@ PlanConditions MpcPlanner::conditionsAt(const StateVector& x) noexcept {
   return out;
 }
 
+GovernedCommands MpcPlanner::commandsAt(const StateVector& x,
+                                        const LastingLoad& load) const noexcept {
+  GovernedCommands out = governor_.commands();
+  const PositionVector q = x.head<kPositionDim>();
+  out.arm_rest_torque =
+      dynamics_.nonlinearEffects(q, VelocityVector::Zero()).tail<kArmJointCount>() +
+      load.shift.tail<kArmJointCount>();
+  return out;
+}
+
 PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf,
                             const JointVector& joint_angle, const PolicySample& stand_in,
                             const MpcPolicy& previous, MpcPolicy& out) noexcept {
@@ -237,9 +247,10 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
   const ReducedDynamics::EndEffector tip = dynamics_.endEffector(x);
   report.contact = superviseContact(now, tip.p_WE);
   governor_.update(now, *config_.schedule, x, tip);
-  engine_->setCommands(governor_.commands());
   report.command_cut = governor_.cutting();
-  engine_->setConditions(conditionsAt(x));
+  const PlanConditions conditions = conditionsAt(x);
+  engine_->setConditions(conditions);
+  engine_->setCommands(commandsAt(x, conditions.load));
   const bool fresh = previous.valid() && now - previous.stamp() <= config_.fallback_after;
   if (!fresh) seedFrom(stand_in, now, x[kYaw]);
   MpcState x0;
@@ -250,6 +261,7 @@ PlanReport MpcPlanner::plan(SimTime now, const StateVector& x, const Vector3& xf
     // After a jump of the state or of what acts the last plan may lead nowhere: begin anew at once.
     seedFrom(stand_in, now, x[kYaw]);
     engine_->setShift(SlqOptions{}.base_shift);
+    report.begun_anew = true;
     slq = engine_->solve(now, x0, seed_, config_.first_iterations, out);
   }
   if (slq.ok()) out.integrateJoints(dynamics_, joint_angle);

@@ -84,6 +84,8 @@ class MpcPlanner {
   void seedFrom(const PolicySample& stand_in, SimTime now, double yaw) noexcept;
   /// Circumstances as they are to a robot in state x.
   PlanConditions conditionsAt(const StateVector& x) noexcept;
+  /// What the governor lets through, to a robot in state x; after conditionsAt.
+  GovernedCommands commandsAt(const StateVector& x, const LastingLoad& load) const noexcept;
   /// Tells the engine what to count on at the end-effector.
   ContactReport superviseContact(SimTime now, const Vector3& p_WE) noexcept;
 

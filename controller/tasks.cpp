@@ -148,6 +148,8 @@ void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& 
   }
   const double turn = contact_turn.value(t, known)[0] + contact.turn;
   out.R_WC = Eigen::AngleAxisd(turn, Vector3::UnitZ()) * contactFrame(contact_normal_W);
+  // Who pushes does not stand still: there, torques cost what they are, which keeps the arm near.
+  out.arm_torque = out.inContact() ? Vector3::Zero() : commands.arm_rest_torque;
 }
 
 double TaskSchedule::turnAboutHinge(const Vector3& p_WE) const {

@@ -279,10 +279,12 @@ void WholeBodyCost::inputCost(const JointVector& tau, const ContactInput& contac
   for (int i = 0; i < kJointCount; ++i) {
     const double limit = constraints_.torque_limit[i];
     const TwoSided d = addTwoSided(limits, limit + tau[i], limit - tau[i], terms);
-    const double weight = i < kWheelCount ? 0 : tasks.arm_torque_weight;
-    terms.value[kArmTorqueCost] += 0.5 * share * weight * tau[i] * tau[i];
+    const bool arm = i >= kWheelCount;
+    const double weight = arm ? tasks.arm_torque_weight : 0;
+    const double beyond = arm ? tau[i] - tasks.arm_torque[i - kWheelCount] : 0;
+    terms.value[kArmTorqueCost] += 0.5 * share * weight * beyond * beyond;
     if constexpr (kExpand) {
-      out->gradient[i] = share * (weight * tau[i] + d.first);
+      out->gradient[i] = share * (weight * beyond + d.first);
       out->diagonal[i] = share * (weight + d.second);
     }
   }

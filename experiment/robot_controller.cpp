@@ -12,7 +12,12 @@ namespace ballbot {
 namespace {
 
 constexpr const char* kBlobKind = "controller";
-constexpr std::uint32_t kBlobVersion = 10;
+constexpr std::uint32_t kBlobVersion = 11;
+
+WheelDrives wheelDrives(const RunConfig& config) {
+  const ActuatorParameters& wheel = config.plant.plant.actuators.wheel;
+  return {wheel.torque_bandwidth, wheel.speed_limit};
+}
 
 /// Whatever a lost wheel is asked for moves nothing, and would only make it race.
 void withoutLost(const WheelFlags& lost, ActuatorCommand& command) noexcept {
@@ -37,7 +42,8 @@ RobotController::RobotController(const RunConfig& config, EventCalendar& calenda
                                       config.controller.offset_free.enabled,
                                       config.controller.push.counted_on)),
       state_(FloorHold(config.believedRobot(), config.controller.floor),
-             LostWheels(config.controller.wheel_loss), PushEstimate(config.controller.push)) {
+             LostWheels(config.controller.wheel_loss), PushEstimate(config.controller.push),
+             DeadDrives(config.controller.wheel_loss.drives, wheelDrives(config))) {
   added_[AddedTo::kPlan].list = config.controller.law->addedToPlan();
   for (const BesideSignal& beside : beside_estimate_) {
     added_[AddedTo::kEstimate].list.push_back(beside.signal);
@@ -94,7 +100,8 @@ void RobotController::followWheels(SimTime now, const SensorFrame& sensors) noex
       state_.refused_wheels.since(sensing_.estimator().rejections(), sensors.joint_velocity);
   // A plan that counts on a wheel which is gone, or leaves out one which is back, is to be
   // replaced.
-  if (state_.wheels.update(now, refused)) state_.plan_now = true;
+  if (state_.wheels.update(now, refused, state_.drives.dead())) state_.plan_now = true;
+  state_.slipping = refused;
 }
 
 void RobotController::followPush(SimTime now) noexcept {
@@ -126,6 +133,7 @@ void RobotController::plan(SimTime now, const SensorFrame& sensors, ControlOutpu
   if (!report.accepted) ++state_.plans_refused;
   if (report.fallback) ++state_.plans_on_fallback;
   if (report.command_cut) ++state_.plans_cut;
+  if (report.begun_anew) ++state_.plans_begun_anew;
   out.has_plan = true;
   out.plan.time = now;
   out.plan.acts_from = now + plan_latency_;
@@ -181,6 +189,10 @@ void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutp
     // With the PD in the drives, their part is added here.
     const JointVector whole = pdTorque(out.command, sensors.joint_angle, sensors.joint_velocity);
     state_.feedforward_share.add(policy.torque, whole - policy.torque);
+    state_.drives.update(
+        now, whole.head<kWheelCount>(),
+        {sensors.joint_torque.head<kWheelCount>(), sensors.joint_velocity.head<kWheelCount>()},
+        state_.slipping);
   }
   law_->commanded(now, tracker_period_, out.command.torque);
 }
@@ -232,7 +244,10 @@ std::map<std::string, double> RobotController::metrics() const {
   out["plans_refused"] = number(state_.plans_refused);
   out["plans_on_fallback"] = number(state_.plans_on_fallback);
   out["plans_with_cut_commands"] = number(state_.plans_cut);
+  out["plans_begun_anew"] = number(state_.plans_begun_anew);
   out["wheels_lost"] = number(state_.wheels.losses());
+  out["drives_dead"] =
+      number(std::count(state_.drives.dead().begin(), state_.drives.dead().end(), true));
   out["ticks_saturated"] = number(state_.ticks_saturated);
   out["ticks_not_finite"] = number(state_.ticks_not_finite);
   if (state_.ticks_released > 0) {

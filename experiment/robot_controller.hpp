@@ -49,14 +49,19 @@ class RobotController final : public SteppedController {
   /// What goes on from one event to the next, but for the parts that keep their own.
   struct State {
     State(const FloorHold& floor_at_first, const LostWheels& wheels_at_first,
-          const PushEstimate& push_at_first)
-        : floor(floor_at_first), wheels(wheels_at_first), push(push_at_first) {}
+          const PushEstimate& push_at_first, const DeadDrives& drives_at_first)
+        : floor(floor_at_first),
+          wheels(wheels_at_first),
+          push(push_at_first),
+          drives(drives_at_first) {}
 
     PolicySample policy;
     FloorHold floor;
     RefusedWheels refused_wheels;
     LostWheels wheels;
     PushEstimate push;
+    DeadDrives drives;
+    WheelFlags slipping{};      ///< or so the estimator says
     std::int64_t rejected = 0;  ///< by the estimator so far
     FeedforwardShare feedforward_share;
     bool plan_pending = false;
@@ -64,6 +69,7 @@ class RobotController final : public SteppedController {
     bool plan_now = false;  ///< whether or not the planner is due
     SimTime pending_since{};
     std::int64_t plans = 0, plans_refused = 0, plans_on_fallback = 0, plans_cut = 0;
+    std::int64_t plans_begun_anew = 0;
     std::int64_t ticks_saturated = 0, ticks_not_finite = 0;
     std::int64_t ticks_released = 0, ticks_on_fallback = 0;  ///< the second is part of the first
 
@@ -78,6 +84,7 @@ class RobotController final : public SteppedController {
       visit(self.plans_refused);
       visit(self.plans_on_fallback);
       visit(self.plans_cut);
+      visit(self.plans_begun_anew);
       visit(self.ticks_saturated);
       visit(self.ticks_not_finite);
       visit(self.ticks_released);
@@ -87,6 +94,8 @@ class RobotController final : public SteppedController {
       visit(self.refused_wheels);
       visit(self.wheels);
       visit(self.push);
+      visit(self.drives);
+      visit(self.slipping);
       visit(self.rejected);
     }
   };

@@ -30,6 +30,8 @@ std::string toText(const Fault& f) {
       return fmt::format("encoder_stuck {}", kJointNames[f.joint]);
     case Fault::Kind::kWheelSlip:
       return fmt::format("wheel_slip {}", kJointNames[f.joint]);
+    case Fault::Kind::kDriveDead:
+      return fmt::format("drive_dead {}", kJointNames[f.joint]);
     case Fault::Kind::kSpikes:
       break;
   }
@@ -42,7 +44,8 @@ void Fault::describe(ConfigVisitor& v, FaultKeys keys) {
            {{"imu_gap", Kind::kImuGap},
             {"encoder_stuck", Kind::kEncoderStuck},
             {"spikes", Kind::kSpikes},
-            {"wheel_slip", Kind::kWheelSlip}});
+            {"wheel_slip", Kind::kWheelSlip},
+            {"drive_dead", Kind::kDriveDead}});
   SimDuration since = start - kSimStart;
   v.duration(must("start_s", "when it sets in"), since, {0, 1e6});
   start = kSimStart + since;
@@ -60,10 +63,12 @@ void Fault::describe(ConfigVisitor& v, FaultKeys keys) {
                                                     {"joint_angle", Signal::kJoint}});
             });
   }
-  if (every || kind == Kind::kEncoderStuck || slip || (spikes && signal == Signal::kJoint)) {
-    v.other({"joint", "whose encoder is stuck or spoiled, or wheel that slips", !every},
+  if (every || kind == Kind::kEncoderStuck || kind == Kind::kDriveDead || slip ||
+      (spikes && signal == Signal::kJoint)) {
+    v.other({"joint", "whose encoder is stuck or spoiled, whose drive is dead, or wheel that slips",
+             !every},
             "one of wheel_1, wheel_2, wheel_3, arm_1, arm_2, arm_3; needed with encoder_stuck, "
-            "wheel_slip (wheels only) and spikes of joint_angle",
+            "drive_dead, wheel_slip (wheels only) and spikes of joint_angle",
             [&](ConfigReader& in) { joint = readJoint(in, slip); });
   }
   if (every || spikes) {
@@ -117,6 +122,12 @@ Vector3 FaultInjector::traction(SimTime now) const {
     }
   }
   return out;
+}
+
+void FaultInjector::cut(SimTime now, JointVector& motor_torque) const {
+  for (const Fault& f : faults_) {
+    if (f.kind == Fault::Kind::kDriveDead && f.activeAt(now)) motor_torque[f.joint] = 0;
+  }
 }
 
 bool FaultInjector::stuck(SimTime now, int joint) const {

@@ -26,13 +26,14 @@ struct Fault {
     kEncoderStuck,  ///< a joint's angle stays as reported last, its rate is zero
     kSpikes,        ///< single values far off
     kWheelSlip,     ///< a wheel finds little traction on the ball
+    kDriveDead,     ///< a motor gives no torque; its rotor turns with the joint
   };
   enum class Signal { kGyro, kAccel, kJoint };
 
   Kind kind = Kind::kImuGap;
   SimTime start{};
   SimDuration duration{};
-  int joint = 0;                  ///< stuck or spoiled encoder, slipping wheel
+  int joint = 0;                  ///< stuck or spoiled encoder, slipping wheel, dead drive
   Signal signal = Signal::kGyro;  ///< of spikes
   double size_sigma = 100;        ///< spikes in standard deviations of the sensor's own noise
   double share = 0.02;            ///< of the samples that are spoiled
@@ -63,6 +64,9 @@ class FaultInjector {
   /// What each wheel can bring onto the ball from `now` until the next change; infinite where
   /// nothing is wrong [N m].
   Vector3 traction(SimTime now) const;
+
+  /// Takes from the motors' torques [N m] what dead ones do not give.
+  void cut(SimTime now, JointVector& motor_torque) const;
 
   void reset();
   /// At every point of time at which a sensor may have a new value, in order.

@@ -230,7 +230,9 @@ class Plant::Impl {
   void substep(SimTime end, const ActuatorCommand& command) {
     State& s = state_;
     if (isMultiple(s.now, config_.drive_period)) {
-      dynamics_.demand(s.drives.act(command), toSeconds(s.now - s.last_tick));
+      JointVector motor_torque = s.drives.act(command);
+      faults_.cut(s.now, motor_torque);
+      dynamics_.demand(motor_torque, toSeconds(s.now - s.last_tick));
       s.last_tick = s.now;
     }
     const bool held = s.now < config_.initial.release;

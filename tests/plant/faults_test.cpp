@@ -140,6 +140,26 @@ TEST(Faults, ASlippingWheelTurnsAgainstItsTractionAloneAndGripsAgain) {
   EXPECT_LT(slipRate(config, plant.truth()).norm(), 1e-9);
 }
 
+TEST(Faults, ADeadDriveGivesNothingAndTheOthersDoNotCare) {
+  const std::string fault =
+      "plant.faults=[{kind: drive_dead, joint: wheel_2, start_s: 0.01, "
+      "duration_s: 0.02}]";
+  Plant healthy(plantConfig("ideal", {})), plant(plantConfig("ideal", {fault}));
+  ActuatorCommand command, without;
+  command.torque << 1, -1, 0.5, 2, 3, 1;
+  without = command;
+  without.torque[1] = 0;
+  plant.advanceTo(ms(10), command);
+  healthy.advanceTo(ms(10), command);
+  EXPECT_EQ(plant.truth().joint_torque, healthy.truth().joint_torque);
+  plant.advanceTo(ms(20), command);
+  healthy.advanceTo(ms(20), without);
+  EXPECT_EQ(plant.truth().joint_torque[1], 0);
+  EXPECT_EQ(plant.truth().state, healthy.truth().state) << "as if none were asked for";
+  plant.advanceTo(ms(30.4), command);
+  EXPECT_NE(plant.truth().joint_torque[1], 0);
+}
+
 TEST(Faults, FrictionOfASlippingWheelTakesEnergyAndGivesNone) {
   const PlantConfig config = plantConfig(
       "ideal", {"plant.fidelity.multibody=full", "initial={pitch_deg: 4, roll_deg: -3}",
