@@ -51,12 +51,13 @@ void Lifecycle::attempt(Work&& work) {
   }
 }
 
-void Lifecycle::requirePossible(const std::string& when, SimTime time) const {
+void Lifecycle::requirePossible(const char* when, SimTime time) const {
   std::string bad_sensor = firstImpossible(participant_.sensors(), time);
   if (bad_sensor.empty()) bad_sensor = firstNonFinite(participant_.added(AddedTo::kSensors));
   if (bad_sensor.empty()) return;
   // Our own plant finds its NaN before it answers.
-  throw LostParticipantError(name(), fmt::format("{}: {}: {}", name(), when, bad_sensor));
+  throw LostParticipantError(
+      name(), fmt::format("{}: {} {}: {}", name(), when, ballbot::toText(time), bad_sensor));
 }
 
 void Lifecycle::enterInitializationMode(SimTime start) {
@@ -70,7 +71,7 @@ void Lifecycle::exitInitializationMode() {
   demand(LifecycleCall::kExitInitializationMode);
   attempt([&] {
     participant_.exitInitializationMode();
-    requirePossible("at the start", time_);
+    requirePossible("at the start,", time_);
   });
   state_ = LifecycleState::kStep;
 }
@@ -94,7 +95,7 @@ void Lifecycle::doStep(SimTime now, SimDuration step, const ActuatorCommand& com
   }
   attempt([&] {
     participant_.doStep(now, step, command);
-    requirePossible("after the step to " + ballbot::toText(now + step), now + step);
+    requirePossible("after the step to", now + step);
   });
   time_ = now + step;
 }

@@ -60,7 +60,7 @@ class Lifecycle final : public Participant {
  private:
   struct Saved;
   void demand(LifecycleCall call) const;
-  void requirePossible(const std::string& when, SimTime time) const;
+  void requirePossible(const char* when, SimTime time) const;
   template <typename Work>
   void attempt(Work&& work);
 
