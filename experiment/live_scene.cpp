@@ -18,12 +18,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-ReportReplay replayOf(const TruthFrame& truth, const RunConfig& config) {
+ReportReplay replayOf(const TruthFrame& truth, const RunConfig& config, const ReplayNames& names) {
   const PlantConfig& plant = config.plant.plant;
   const std::vector<Push>& pushes = plant.pushes;
   RunLog log;
   log.truth.push_back(truth);
-  ReportReplay replay = makeReplay(log, config.robot, pushes, *config.reference(), config.home);
+  ReportReplay replay =
+      makeReplay(log, config.robot, names, pushes, *config.reference(), config.home);
   replay.objects = replayObjects(log, plant.surroundings);
   if (replay.forces.size() == pushes.size()) {  // nothing touched just now
     replay.forces.push_back({"contact", ReportPhase::Kind::kContact, {{0, 0, 0}}, {{0, 0, 0}}});
@@ -42,10 +43,10 @@ const char* nameOf(SeriesStyle style) {
 
 }  // namespace
 
-LiveScene::LiveScene(const RunConfig& config) : config_(config) {}
+LiveScene::LiveScene(const RunConfig& config) : config_(config), names_(ReplayNames::of(config)) {}
 
 std::string LiveScene::description() const {
-  const ReportReplay replay = replayOf({}, config_);
+  const ReportReplay replay = replayOf({}, config_, names_);
   Json out = {{"title", config_.scenario.name},
               {"subtitle", config_.scenario.summary},
               {"duration", toSeconds(config_.scenario.duration)},
@@ -82,11 +83,11 @@ std::string LiveScene::frame(const TruthFrame& truth) {
                                                                 config_.robot.ball.radius);
   ball_ = (Eigen::Quaterniond(expSO3(w * dt)) * ball_).normalized();
 
-  ReportReplay replay = replayOf(truth, config_);
+  ReportReplay replay = replayOf(truth, config_, names_);
   Json bodies = Json::array(), joints = Json::array(), frames = Json::array(),
        points = Json::array(), forces = Json::array(), objects = Json::array();
   for (auto& body : replay.bodies) {
-    if (body.link == "ball") {
+    if (body.link == names_.ball) {
       body.poses.front().quat_W = {ball_.w(), ball_.x(), ball_.y(), ball_.z()};
     }
     append(bodies, body.poses.front());

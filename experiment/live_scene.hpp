@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "experiment/run_config.hpp"
+#include "experiment/run_replay.hpp"
 #include "model/truth.hpp"
 
 namespace ballbot {
@@ -23,6 +24,7 @@ class LiveScene {
 
  private:
   RunConfig config_;
+  ReplayNames names_;
   bool started_ = false;
   double last_s_ = 0;
   Eigen::Quaterniond ball_ = Eigen::Quaterniond::Identity();  ///< from rolling, frame to frame

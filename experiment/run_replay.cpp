@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 
+#include "experiment/run_config.hpp"
 #include "model/body_poses.hpp"
 #include "model/frames.hpp"
 #include "model/omniwheel_kinematics.hpp"
+#include "model/robot_urdf.hpp"
 
 namespace ballbot {
 namespace {
@@ -32,20 +34,22 @@ ReplayPose askedPose(const MotionReference& reference, const HomeFrame& home, Si
 
 }  // namespace
 
-ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot,
+ReplayNames ReplayNames::of(const RunConfig& config) {
+  const RobotUrdf urdf = readRobotUrdf(config.scenario.section("robot"));
+  return {urdf.links.base, urdf.links.ball, urdf.read.joints};
+}
+
+ReportReplay makeReplay(const RunLog& log, const RobotParameters& robot, const ReplayNames& names,
                         const std::vector<Push>& pushes, const MotionReference& reference,
                         const HomeFrame& home) {
   ReportReplay replay;
-  ReplayBody base{"base", {}}, ball{"ball", {}};
+  replay.followed_link = names.base;
+  ReplayBody base{names.base, {}}, ball{names.ball, {}};
   ReplayFrame hand{"end-effector", SeriesStyle::kMeasured, {}};
   ReplayFrame asked{"end-effector reference", SeriesStyle::kReference, {}};
   ReplayForce contact{"contact", ReportPhase::Kind::kContact, {}, {}};
   std::vector<ReplayForce> push_forces(pushes.size(), {"push", ReportPhase::Kind::kPush, {}, {}});
-  // Joint names as the URDF has them, in the order of the actuators.
-  for (const char* name : {"wheel_1_joint", "wheel_2_joint", "wheel_3_joint", "arm_1_joint",
-                           "arm_2_joint", "arm_3_joint"}) {
-    replay.joints.push_back({name, {}});
-  }
+  for (const std::string& name : names.joints) replay.joints.push_back({name, {}});
   Eigen::Quaterniond ball_orientation = Eigen::Quaterniond::Identity();
   bool touched = false;
   for (std::size_t k = 0; k < log.truth.size(); ++k) {

@@ -267,7 +267,8 @@ void writeRunReport(const RunConfig& config, const RunResult& result, const RunF
   data.phases = phasesOf(config);
   for (ReportPhase& phase : contactPhases(log)) data.phases.push_back(std::move(phase));
   if (!log.truth.empty()) {
-    data.replay = makeReplay(log_W, robot, config.plant.plant.pushes, *reference, config.home);
+    data.replay = makeReplay(log_W, robot, ReplayNames::of(config), config.plant.plant.pushes,
+                             *reference, config.home);
     data.replay->objects = replayObjects(log_W, surroundings);
   }
   data.manifest = {{"scenario", scenario.name},

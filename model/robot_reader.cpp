@@ -38,6 +38,7 @@ void checkApart(const std::array<double, kWheelCount>& azimuth, const std::strin
 /// What the `robot:` section itself holds, beside the URDF that it names.
 struct RobotFile {
   std::string urdf;
+  RobotLinks links;
   double gravity = 9.81, total_mass = 0, payload_mass = 0;
   double wheel_radius = 0, contact_zenith = 0;
   std::array<double, kWheelCount> azimuth{};
@@ -46,6 +47,8 @@ struct RobotFile {
 
   void describe(ConfigVisitor& v) {
     v.text(must("urdf", "file with the bodies, beside the one that names it"), urdf);
+    v.section(may("links", "what the URDF calls the parts of the robot"),
+              [this](ConfigVisitor& in) { links.describe(in); });
     v.number(must("gravity_m_per_s2", "acceleration of free fall"), gravity, {0.1, 100});
     v.section(must("wheels", "where the wheels touch the ball"), [this](ConfigVisitor& wheels) {
       wheels.number(must("radius_m", "of a wheel"), wheel_radius, {kTiny, kInf});
@@ -66,20 +69,20 @@ struct RobotFile {
 
 /// URDF and YAML both say where the wheels are; a robot whose picture and equations differ would
 /// be found out late.
-void checkWheelPlacement(const UrdfRobot& urdf, const RobotParameters& robot,
-                         const std::string& where) {
+void checkWheelPlacement(const UrdfRobot& urdf, const RobotLinks& links,
+                         const RobotParameters& robot, const std::string& where) {
   for (int i = 0; i < kWheelCount; ++i) {
     const Vector3 centre = robot.wheelCentre(i), axle = robot.wheelAxle(i);
     if ((centre - urdf.wheel_centre[i]).norm() > kSameLength_m ||
         (axle - urdf.wheel_axle[i]).norm() > kSameLength_m) {
       throw InputError(fmt::format(
-          "{} contradicts the URDF: link 'wheel_{}' is at ({:.6f}, {:.6f}, {:.6f}) with axle "
+          "{} contradicts the URDF: link '{}' is at ({:.6f}, {:.6f}, {:.6f}) with axle "
           "({:.6f}, {:.6f}, {:.6f}) there, must be at ({:.6f}, {:.6f}, {:.6f}) with axle ({:.6f}, "
           "{:.6f}, {:.6f})",
-          where, i + 1, urdf.wheel_centre[i].x(), urdf.wheel_centre[i].y(),
-          urdf.wheel_centre[i].z(), urdf.wheel_axle[i].x(), urdf.wheel_axle[i].y(),
-          urdf.wheel_axle[i].z(), centre.x(), centre.y(), centre.z(), axle.x(), axle.y(),
-          axle.z()));
+          where, links.wheels[static_cast<std::size_t>(i)], urdf.wheel_centre[i].x(),
+          urdf.wheel_centre[i].y(), urdf.wheel_centre[i].z(), urdf.wheel_axle[i].x(),
+          urdf.wheel_axle[i].y(), urdf.wheel_axle[i].z(), centre.x(), centre.y(), centre.z(),
+          axle.x(), axle.y(), axle.z()));
     }
   }
 }
@@ -98,7 +101,7 @@ RobotParameters readRobot(ConfigReader& in) {
   RobotFile file;
   readDescribed(in, file);
   const std::string path = urdfPath(*in.raw("urdf"));
-  const UrdfRobot urdf = loadUrdf(path);
+  const UrdfRobot urdf = loadUrdf(path, file.links);
   RobotParameters robot = urdf.parameters;
 
   robot.gravity = file.gravity;
@@ -106,7 +109,7 @@ RobotParameters readRobot(ConfigReader& in) {
   robot.wheels.contact_zenith = file.contact_zenith;
   robot.wheels.azimuth = file.azimuth;
   checkApart(robot.wheels.azimuth, in.child("wheels").at("azimuth_deg"));
-  checkWheelPlacement(urdf, robot, in.at("wheels"));
+  checkWheelPlacement(urdf, file.links, robot, in.at("wheels"));
 
   if (std::abs(robot.totalMass() - file.total_mass) > 1e-6 * file.total_mass) {
     throw InputError(fmt::format("{} is {}, but the links of {} sum to {:.9g} kg",

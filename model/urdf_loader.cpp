@@ -6,9 +6,7 @@
 #include <initializer_list>
 #include <map>
 #include <mutex>
-#include <set>
 #include <sstream>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -26,9 +24,6 @@ constexpr double kSameRatio = 1e-9;
 /// A revolute joint beyond three turns is rare; one limited in degrees by mistake is not.
 constexpr double kManyTurns_rad = 20;
 
-const std::set<std::string> kBodies{"base",    "ball",  "wheel_1", "wheel_2",
-                                    "wheel_3", "arm_1", "arm_2",   "arm_3"};
-
 void requireType(const UrdfTree& tree, const UrdfJoint& joint,
                  std::initializer_list<UrdfJointType> suitable, const std::string& expected) {
   if (std::find(suitable.begin(), suitable.end(), joint.type) != suitable.end()) return;
@@ -36,61 +31,68 @@ void requireType(const UrdfTree& tree, const UrdfJoint& joint,
                                     joint.child, toText(joint.type), expected));
 }
 
-/// A frame that must be parallel to its parent's.
-Vector3 parallelOrigin(const UrdfTree& tree, const UrdfJoint& joint) {
-  if ((joint.X_PC.linear() - Matrix3::Identity()).norm() > 1e-12) {
-    tree.fail(joint.line,
-              fmt::format("joint '{}' turns the frame of link '{}'; its rpy must be zero",
-                          joint.name, joint.child));
-  }
-  return joint.X_PC.translation();
+/// `body` as it is in a frame with the same origin whose axes R takes it to. What is not turned
+/// keeps its bits.
+BodyInertia turned(const Matrix3& R, const BodyInertia& body) {
+  if (R.isIdentity(0)) return body;
+  return {body.mass, R * body.p_LLcm_L, R * body.I_LLcm_L * R.transpose()};
 }
+Vector3 turned(const Matrix3& R, const Vector3& v) { return R.isIdentity(0) ? v : Vector3(R * v); }
 
 double readBallRadius(const UrdfTree& tree, const UrdfLink& link) {
   if (link.spheres.size() != 1) {
-    tree.fail(link.line, fmt::format("link 'ball' has {} <collision> spheres, must have one, which "
+    tree.fail(link.line, fmt::format("link '{}' has {} <collision> spheres, must have one, which "
                                      "gives the ball's radius",
-                                     link.spheres.size()));
+                                     link.name, link.spheres.size()));
   }
   const UrdfSphere& sphere = link.spheres.front();
   if (sphere.p_LS.norm() > kSameLength_m) {
-    tree.fail(sphere.line, "link 'ball': the sphere must have its centre at the link's origin");
+    tree.fail(sphere.line, fmt::format("link '{}': the sphere must have its centre at the link's "
+                                       "origin",
+                                       link.name));
   }
   if (!(sphere.radius > 0)) {
-    tree.fail(sphere.line, "link 'ball': the radius of its sphere must be more than 0");
+    tree.fail(sphere.line,
+              fmt::format("link '{}': the radius of its sphere must be more than 0", link.name));
   }
   return sphere.radius;
 }
 
-RobotParameters::Ball readBall(const UrdfTree& tree) {
-  const UrdfJoint& joint = tree.jointBetween("base", "ball");
+RobotParameters::Ball readBall(const UrdfTree& tree, const RobotLinks& links) {
+  const UrdfMount mount = tree.mount(links.base, links.ball);
+  const UrdfJoint& joint = *mount.joint;
   requireType(tree, joint, {UrdfJointType::kFloating, UrdfJointType::kFixed}, "floating or fixed");
-  if (parallelOrigin(tree, joint).norm() > kSameLength_m) {
-    tree.fail(joint.line, "link 'ball' must have its origin at that of 'base': the ball's centre");
+  if (mount.X_BL.translation().norm() > kSameLength_m) {
+    tree.fail(joint.line, fmt::format("link '{}' must have its origin at that of '{}': the ball's "
+                                      "centre",
+                                      links.ball, links.base));
   }
   const UrdfDrive& drive = joint.drive;
   if (drive.damping || drive.dry_friction) {
     tree.fail(joint.line, "joint '" + joint.name + "': the ball rolls without <dynamics>");
   }
-  const BodyInertia& body = tree.body("ball");
+  const BodyInertia& body = tree.body(links.ball);
   const Matrix3& I = body.I_LLcm_L;
   if (body.p_LLcm_L.norm() > kSameLength_m ||
       (I - I(0, 0) * Matrix3::Identity()).norm() > kSameRatio * I(0, 0)) {
-    tree.fail(tree.link("ball").line,
-              "link 'ball' must have its centre of mass at its origin and equal moments of inertia "
-              "about all axes");
+    tree.fail(tree.link(links.ball).line,
+              fmt::format("link '{}' must have its centre of mass at its origin and equal moments "
+                          "of inertia about all axes",
+                          links.ball));
   }
-  return {readBallRadius(tree, tree.link("ball")), body.mass, I(0, 0)};
+  return {readBallRadius(tree, tree.link(links.ball)), body.mass, I(0, 0)};
 }
 
-void readWheel(const UrdfTree& tree, int i, UrdfRobot& robot) {
-  const std::string name = fmt::format("wheel_{}", i + 1);
-  const UrdfJoint& joint = tree.jointBetween("base", name);
+void readWheel(const UrdfTree& tree, const RobotLinks& links, int i, UrdfRobot& robot) {
+  const std::string& name = links.wheels[static_cast<std::size_t>(i)];
+  const UrdfMount mount = tree.mount(links.base, name);
+  const UrdfJoint& joint = *mount.joint;
   requireType(tree, joint, {UrdfJointType::kContinuous}, "continuous");
   const Vector3& axis = joint.axis;
-  robot.wheel_centre[i] = joint.X_PC.translation();
-  robot.wheel_axle[i] = joint.X_PC.linear() * axis;
+  robot.wheel_centre[i] = mount.X_BL.translation();
+  robot.wheel_axle[i] = mount.X_BL.linear() * axis;
   robot.drives[i] = joint.drive;
+  robot.joints[i] = joint.name;
 
   const BodyInertia& body = tree.body(name);
   const double spin = axis.dot(body.I_LLcm_L * axis);
@@ -107,7 +109,8 @@ void readWheel(const UrdfTree& tree, int i, UrdfRobot& robot) {
   if (i > 0 && (std::abs(body.mass - wheels.mass) > kSameRatio * wheels.mass ||
                 std::abs(spin - wheels.spin_inertia) > kSameRatio * spin ||
                 std::abs(transverse - wheels.transverse_inertia) > kSameRatio * spin)) {
-    tree.fail(line, fmt::format("link '{}' must have the mass and inertia of 'wheel_1'", name));
+    tree.fail(line, fmt::format("link '{}' must have the mass and inertia of '{}'", name,
+                                links.wheels[0]));
   }
   wheels.mass = body.mass;
   wheels.spin_inertia = spin;
@@ -125,15 +128,20 @@ void noteStrangeLimits(const UrdfJoint& joint, std::vector<std::string>& notes) 
   }
 }
 
-void readArmLink(const UrdfTree& tree, int i, UrdfRobot& robot) {
+/// @param R_BP  axes of the body that carries the link, at zero angles; becomes the link's own
+void readArmLink(const UrdfTree& tree, const RobotLinks& links, int i, Matrix3& R_BP,
+                 UrdfRobot& robot) {
   ArmLink& link = robot.parameters.arm[i];
-  link.name = fmt::format("arm_{}", i + 1);
-  const UrdfJoint& joint = tree.jointBetween(i == 0 ? "base" : fmt::format("arm_{}", i), link.name);
+  const auto at = static_cast<std::size_t>(i);
+  link.name = links.arm[at];
+  const UrdfMount mount = tree.mount(i == 0 ? links.base : links.arm[at - 1], link.name);
+  const UrdfJoint& joint = *mount.joint;
   requireType(tree, joint, {UrdfJointType::kRevolute, UrdfJointType::kContinuous},
               "revolute or continuous");
-  link.p_PJ_P = parallelOrigin(tree, joint);
-  link.axis = joint.axis;
-  link.inertia = tree.body(link.name);
+  link.p_PJ_P = turned(R_BP, mount.X_BL.translation());
+  if (!mount.X_BL.linear().isIdentity(0)) R_BP *= mount.X_BL.linear();
+  link.axis = turned(R_BP, joint.axis);
+  link.inertia = turned(R_BP, tree.body(link.name));
   link.lower_limit = joint.lower_limit;
   link.upper_limit = joint.upper_limit;
   if (!(link.lower_limit < link.upper_limit)) {
@@ -142,54 +150,56 @@ void readArmLink(const UrdfTree& tree, int i, UrdfRobot& robot) {
                                       joint.name, link.name, link.lower_limit, link.upper_limit));
   }
   robot.drives[kWheelCount + i] = joint.drive;
+  robot.joints[kWheelCount + i] = joint.name;
   noteStrangeLimits(joint, robot.notes);
 }
 
 /// Pose of `child`, which is fixed to `parent`.
-const Eigen::Isometry3d& readFixedFrame(const UrdfTree& tree, const std::string& parent,
-                                        const std::string& child) {
-  const UrdfJoint& joint = tree.jointBetween(parent, child);
-  requireType(tree, joint, {UrdfJointType::kFixed}, "fixed");
-  return joint.X_PC;
+Eigen::Isometry3d readFixedFrame(const UrdfTree& tree, const std::string& parent,
+                                 const std::string& child) {
+  const UrdfMount mount = tree.mount(parent, child);
+  requireType(tree, *mount.joint, {UrdfJointType::kFixed}, "fixed");
+  return mount.X_BL;
 }
 
-UrdfRobot parse(const std::string& path, const std::string& text) {
-  UrdfTree tree(readUrdf(path, text));
-  if (!tree.isRoot("base")) {
-    tree.fail(tree.link("base").line, "link 'base' must be the root of the tree");
+UrdfRobot parse(const std::string& path, const std::string& text, const RobotLinks& links) {
+  const UrdfTree tree(readUrdf(path, text), links.bodies(), links.all());
+  if (!tree.isRoot(links.base)) {
+    tree.fail(tree.link(links.base).line,
+              fmt::format("link '{}' must be the root of the tree", links.base));
   }
-  tree.merge(kBodies);
 
   UrdfRobot robot;
   RobotParameters& p = robot.parameters;
   p.name = tree.name();
-  p.ball = readBall(tree);
-  p.base = tree.body("base");
-  for (int i = 0; i < kWheelCount; ++i) readWheel(tree, i, robot);
-  for (int i = 0; i < kArmJointCount; ++i) readArmLink(tree, i, robot);
+  p.ball = readBall(tree, links);
+  p.base = tree.body(links.base);
+  for (int i = 0; i < kWheelCount; ++i) readWheel(tree, links, i, robot);
+  Matrix3 R_BL = Matrix3::Identity();
+  for (int i = 0; i < kArmJointCount; ++i) readArmLink(tree, links, i, R_BL, robot);
 
-  const Eigen::Isometry3d& X_A3E = readFixedFrame(tree, "arm_3", "end_effector");
-  p.p_A3E = X_A3E.translation();
-  p.R_A3E = X_A3E.linear();
-  readFixedFrame(tree, "base", "imu");
-  p.p_BI_B = parallelOrigin(tree, tree.jointBetween("base", "imu"));
+  const Eigen::Isometry3d X_A3E = readFixedFrame(tree, links.arm.back(), links.end_effector);
+  p.p_A3E = turned(R_BL, X_A3E.translation());
+  p.R_A3E = R_BL.isIdentity(0) ? Matrix3(X_A3E.linear()) : Matrix3(R_BL * X_A3E.linear());
+  p.p_BI_B = readFixedFrame(tree, links.base, links.imu).translation();
   return robot;
 }
 
 }  // namespace
 
-UrdfRobot loadUrdf(const std::string& path) {
+UrdfRobot loadUrdf(const std::string& path, const RobotLinks& links) {
   std::ifstream file(path);
   std::stringstream text;
   text << file.rdbuf();
   if (!file) throw InputError(fmt::format("{}: cannot be read", path));
   // The parts of one run and the cases of a study all ask for the same robot: parsed once.
   static std::mutex guard;
-  static std::map<std::pair<std::string, std::string>, UrdfRobot> known;
+  static std::map<std::vector<std::string>, UrdfRobot> known;
   const std::lock_guard<std::mutex> lock(guard);
-  const std::pair<std::string, std::string> key(path, text.str());
+  std::vector<std::string> key = links.all();
+  key.insert(key.end(), {path, text.str()});
   auto found = known.find(key);
-  if (found == known.end()) found = known.emplace(key, parse(path, key.second)).first;
+  if (found == known.end()) found = known.emplace(key, parse(path, key.back(), links)).first;
   return found->second;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "model/robot_links.hpp"
 #include "model/urdf_description.hpp"
 
 namespace ballbot {
@@ -15,15 +16,17 @@ struct UrdfRobot {
   std::array<Vector3, kWheelCount> wheel_centre;  ///< from K, in B [m]
   std::array<Vector3, kWheelCount> wheel_axle;    ///< unit vectors, in B
   std::array<UrdfDrive, kJointCount> drives;
-  std::vector<std::string> notes;  ///< what is allowed and most likely not meant
+  std::array<std::string, kJointCount> joints;  ///< their names
+  std::vector<std::string> notes;               ///< what is allowed and most likely not meant
 };
 
-/// Reads a robot with the links base (the root, origin at the ball's centre), ball, wheel_1 to
-/// wheel_3, arm_1 to arm_3, end_effector and imu. Every other link must hang on a fixed joint; its
-/// mass, and that of end_effector and imu, counts to the body it is fixed to. The ball's radius is
-/// that of its collision sphere. The same text in the same file is parsed once in a process.
+/// Reads a robot with these links: base (the root, origin at the ball's centre), ball, wheels, arm,
+/// end-effector and IMU. Every other link must hang on a fixed joint; its mass, and that of
+/// end-effector and IMU, counts to the body it is fixed to. Frames may be turned as the file likes:
+/// those of `parameters` are parallel to the base's at zero angles. The ball's radius is that of
+/// its collision sphere. The same text in the same file is parsed once in a process.
 /// docs/robot.md says more.
 /// @throw InputError naming file, line and link or joint.
-UrdfRobot loadUrdf(const std::string& path);
+UrdfRobot loadUrdf(const std::string& path, const RobotLinks& links = {});
 
 }  // namespace ballbot

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 
@@ -22,10 +23,14 @@ std::string momentsText(const Vector3& moments) {
 
 }  // namespace
 
-UrdfTree::UrdfTree(UrdfDescription description) : description_(std::move(description)) {
+UrdfTree::UrdfTree(UrdfDescription description, const std::vector<std::string>& bodies,
+                   const std::vector<std::string>& needed)
+    : description_(std::move(description)), bodies_(bodies.begin(), bodies.end()), needed_(needed) {
   nameLinks();
   hangLinks();
   orderLinks();
+  for (const std::string& link : needed_) indexOf(link);
+  merge();
 }
 
 void UrdfTree::nameLinks() {
@@ -94,26 +99,35 @@ std::size_t UrdfTree::indexOf(const std::string& link) const {
   const auto found = index_.find(link);
   if (found == index_.end()) {
     throw InputError(
-        fmt::format("{}: link '{}' is missing; the robot needs the links base, ball, wheel_1, "
-                    "wheel_2, wheel_3, arm_1, arm_2, arm_3, end_effector and imu",
-                    file(), link));
+        fmt::format("{}: link '{}' is missing; the robot needs the links {}, or other names for "
+                    "them in robot.links",
+                    file(), link, fmt::join(needed_, ", ")));
   }
   return found->second;
 }
 
-const UrdfJoint& UrdfTree::jointBetween(const std::string& parent, const std::string& child) const {
-  link(parent);
+UrdfMount UrdfTree::mount(const std::string& parent, const std::string& child) const {
   const UrdfJoint* joint = parent_joint_[indexOf(child)];
-  if (!joint || joint->parent != parent) {
-    fail(joint ? joint->line : link(child).line,
-         fmt::format(
-             "link '{}' must hang on '{}', but {}", child, parent,
-             joint ? fmt::format("hangs on '{}'", joint->parent) : "is the root of the tree"));
+  if (!joint) {
+    fail(link(child).line,
+         fmt::format("link '{}' must hang on '{}', but is the root of the tree", child, parent));
   }
-  return *joint;
+  Eigen::Isometry3d X_BL = joint->X_PC;
+  const std::string* carrier = &joint->parent;
+  while (bodies_.count(*carrier) == 0) {
+    const UrdfJoint* above = parent_joint_[indexOf(*carrier)];
+    if (!above) break;
+    X_BL = above->X_PC * X_BL;
+    carrier = &above->parent;
+  }
+  if (*carrier != parent) {
+    fail(joint->line,
+         fmt::format("link '{}' must hang on '{}', but hangs on '{}'", child, parent, *carrier));
+  }
+  return {joint, X_BL};
 }
 
-void UrdfTree::merge(const std::set<std::string>& bodies) {
+void UrdfTree::merge() {
   const std::size_t count = description_.links.size();
   body_.resize(count);
   composite_.assign(count, false);
@@ -124,7 +138,7 @@ void UrdfTree::merge(const std::set<std::string>& bodies) {
   for (auto at = order_.rbegin(); at != order_.rend(); ++at) {
     const UrdfJoint* joint = parent_joint_[*at];
     const std::string& name = description_.links[*at].name;
-    if (!joint || bodies.count(name)) continue;
+    if (!joint || bodies_.count(name)) continue;
     if (joint->type != UrdfJointType::kFixed) {
       fail(joint->line, fmt::format("link '{}' hangs on joint '{}' of type {}; only ball, wheels "
                                     "and arm move, so it must be fixed",

@@ -9,12 +9,22 @@
 
 namespace ballbot {
 
+/// A link that moves, or a frame, on the body that carries it.
+struct UrdfMount {
+  const UrdfJoint* joint;  ///< above the link; what is between that and the body is fixed
+  Eigen::Isometry3d X_BL;  ///< link's frame, at zero, in the body's
+};
+
 /// The links of a URDF as the tree that their joints make, with whatever is fixed to a link made
 /// part of its body. Every error is an InputError that begins with file and line.
 class UrdfTree {
  public:
-  /// @throw InputError unless the joints make one tree of all links.
-  explicit UrdfTree(UrdfDescription description);
+  /// @param bodies  links that stand for themselves; every other one is part of that which it is
+  ///                fixed to
+  /// @param needed  those that are asked for, for messages
+  /// @throw InputError unless the joints make one tree of all links, in which only bodies move.
+  UrdfTree(UrdfDescription description, const std::vector<std::string>& bodies,
+           const std::vector<std::string>& needed);
   UrdfTree(const UrdfTree&) = delete;
   UrdfTree& operator=(const UrdfTree&) = delete;
 
@@ -24,13 +34,10 @@ class UrdfTree {
   /// @throw InputError if there is no such link.
   const UrdfLink& link(const std::string& name) const { return description_.links[indexOf(name)]; }
   bool isRoot(const std::string& link) const { return parent_joint_[indexOf(link)] == nullptr; }
-  /// The joint above `child`. @throw InputError unless it hangs on `parent`.
-  const UrdfJoint& jointBetween(const std::string& parent, const std::string& child) const;
+  /// How `child` hangs on the body `parent`, be it by way of links that are fixed to that.
+  /// @throw InputError if it hangs on another one.
+  UrdfMount mount(const std::string& parent, const std::string& child) const;
 
-  /// Makes every link part of the body it is fixed to; only the links in `bodies` stand for
-  /// themselves. To be called before `body`.
-  /// @throw InputError if any other link hangs on a joint that moves.
-  void merge(const std::set<std::string>& bodies);
   /// Mass properties of a link with all that is merged into it.
   /// @throw InputError if that has no mass or is not the inertia of a rigid body.
   const BodyInertia& body(const std::string& link) const;
@@ -43,9 +50,12 @@ class UrdfTree {
   void nameLinks();
   void hangLinks();
   void orderLinks();
+  void merge();
   void checkRigid(std::size_t link) const;
 
   UrdfDescription description_;
+  std::set<std::string> bodies_;
+  std::vector<std::string> needed_;
   // One each link:
   std::map<std::string, std::size_t> index_;
   std::vector<const UrdfJoint*> parent_joint_;  ///< null at the root

@@ -12,7 +12,7 @@
 #include "experiment/continue_run.hpp"
 #include "experiment/run_experiment.hpp"
 #include "experiment/run_record.hpp"
-#include "model/robot_notes.hpp"
+#include "model/robot_urdf.hpp"
 #include "report/json_text.hpp"
 #include "tools/commands.hpp"
 #include "tools/interrupt.hpp"
@@ -62,7 +62,7 @@ ExitCode runScenario(const RunArguments& arguments) {
   const std::string file = from ? RunFolder::open(from->run).scenarioFile() : arguments.scenario;
   const Scenario scenario = loadScenario(file, arguments.overrides, arguments.seed);
 
-  for (const std::string& note : robotNotes(scenario.section("robot"))) {
+  for (const std::string& note : readRobotUrdf(scenario.section("robot")).read.notes) {
     fmt::print(stderr, "note: {}\n", note);
   }
 

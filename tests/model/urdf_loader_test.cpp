@@ -4,7 +4,7 @@
 
 #include "model/frames.hpp"
 #include "model/limits.hpp"
-#include "model/robot_notes.hpp"
+#include "model/robot_urdf.hpp"
 #include "tests/model/edited_robot.hpp"
 
 namespace ballbot {
@@ -277,7 +277,7 @@ TEST_F(EditedRobot, ATorqueLimitOutOfReachIsNone) {
 
 TEST_F(EditedRobot, LimitsInDegreesDeserveAWord) {
   const auto notes = [this] {
-    return robotNotes(loadYamlFile((folder_ / "ballbot.yaml").string()));
+    return readRobotUrdf(loadYamlFile((folder_ / "ballbot.yaml").string())).read.notes;
   };
   EXPECT_TRUE(notes().empty());
   editUrdf("arm_1_joint", "lower=\"-3.1\" upper=\"3.1\"", "lower=\"-177.6\" upper=\"177.6\"");
