@@ -24,9 +24,9 @@ class TurnedUrdf {
   std::string text() {
     auto* robot = document_.RootElement();
     for (auto* e = robot->FirstChildElement("link"); e; e = e->NextSiblingElement("link")) {
-      if (auto* inertial = e->FirstChildElement("inertial")) {
-        const Matrix3 R = of(e->Attribute("name")).transpose();
-        write(*inertial, {R * xyz(*inertial), R * rotation(*inertial)});
+      const Matrix3 R = of(e->Attribute("name")).transpose();
+      for (auto* part = e->FirstChildElement(); part; part = part->NextSiblingElement()) {
+        write(*part, {R * xyz(*part), R * rotation(*part)});
       }
     }
     for (auto* e = robot->FirstChildElement("joint"); e; e = e->NextSiblingElement("joint")) {
