@@ -17,7 +17,34 @@ void describeBarrier(ConfigVisitor& v, RelaxedBarrier& barrier) {
            barrier.delta, {1e-6, 1e6});
 }
 
+// Of the range of a joint or a torque, on each side.
+constexpr double kFar = 0.1;
+
+/// Of both barriers of one coordinate.
+double wish(const RelaxedBarrier& barrier, double value, double lower, double upper) {
+  const double far = std::max(kFar * (upper - lower), barrier.delta);
+  return barrier.derivatives(std::max(value - lower, far)).first -
+         barrier.derivatives(std::max(upper - value, far)).first;
+}
+
 }  // namespace
+
+Vector3 Constraints::armPositionWish(const Vector3& arm) const {
+  Vector3 out;
+  for (int i = 0; i < kArmJointCount; ++i) {
+    out[i] = wish(arm_position, arm[i], arm_lower[i], arm_upper[i]);
+  }
+  return out;
+}
+
+Vector3 Constraints::armTorqueWish(const Vector3& tau) const {
+  Vector3 out;
+  for (int i = 0; i < kArmJointCount; ++i) {
+    const double limit = torque_limit[kWheelCount + i];
+    out[i] = wish(torque, tau[i], -limit, limit);
+  }
+  return out;
+}
 
 Constraints::Constraints(const RobotParameters& robot) { takeShares(robot); }
 

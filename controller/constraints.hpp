@@ -44,6 +44,12 @@ struct Constraints {
 
   explicit Constraints(const RobotParameters& robot);
 
+  /// Slopes of the barriers at the arm's stops, and at its largest torques, where nothing is near:
+  /// there a barrier is no limit but a wish for the middle, which moves a robot that stands. From
+  /// `far` on each side counts as if it were that near.
+  Vector3 armPositionWish(const Vector3& arm) const;   ///< [1/rad]
+  Vector3 armTorqueWish(const Vector3& torque) const;  ///< [1/(N m)]
+
   void describe(ConfigVisitor& v);
   /// @param held  torque that the floor holds; kUnlimited without end [N m]
   void takeFloor(double held) noexcept {

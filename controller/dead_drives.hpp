@@ -12,12 +12,15 @@ class ConfigVisitor;
 
 /// When a wheel's drive counts as dead.
 struct DriveLoss {
-  /// Less than this share of what should arrive does ...
+  bool found = true;
+  /// Less than this share of what should arrive does, while of the others more than 0.7 does ...
   double share = 0.2;
   /// ... where it should be more than this [N m] ...
   double least_torque_Nm = 0.5;
   /// ... for so long without a break: longer than it takes to see that a wheel slips.
   SimDuration after = std::chrono::milliseconds(80);
+  /// Then it is tried again; after twice the time whenever it was in vain, four times at most.
+  SimDuration tried_after = std::chrono::seconds(2);
 
   void describe(ConfigVisitor& v);
 };
@@ -35,9 +38,11 @@ struct WheelReadings {
 };
 
 /// Which wheel drive gives no torque any more: what arrives at its spring against what was asked of
-/// it, as late as its torque loop is. A wheel that slips looks like it and is none, and neither is
-/// a drive at the end of its speed. A dead drive is asked for nothing, so nothing would tell that
-/// it lives again: it stays dead. Free of allocation; for the control step.
+/// it, as late as its torque loop is. Drives that are slow, weak or dragged give little, too, but
+/// they do so together: one is dead where the others are not. A wheel that slips looks like it and
+/// is none, and neither is a drive at the end of its speed. At most one is dead. A dead drive is
+/// asked for nothing, so nothing would tell that it lives again: it is tried from time to time.
+/// Free of allocation; for the control step.
 class DeadDrives {
  public:
   DeadDrives(const DriveLoss& settings, const WheelDrives& wheels);
@@ -48,23 +53,37 @@ class DeadDrives {
               const WheelFlags& slipping) noexcept;
 
   const WheelFlags& dead() const noexcept { return dead_; }
+  std::int64_t deaths() const noexcept { return deaths_; }  ///< found since the start
 
   template <typename Self, typename Visitor>
   static void visitState(Self& self, Visitor& visit) {
     visit(self.last_);
     visit(self.expected_);
+    visit(self.asked_squared_);
+    visit(self.arrived_);
     visit(self.fine_until_);
     visit(self.dead_);
+    visit(self.tried_at_);
+    visit(self.in_vain_);
+    visit(self.deaths_);
   }
 
  private:
+  void follow(double dt, const WheelReadings& measured) noexcept;
+  bool othersLive(int wheel) const noexcept;
+
   DriveLoss settings_;
   double lag_;            ///< of the torque loops [s]
   double speed_to_tell_;  ///< [rad/s]
   SimTime last_{};
-  Vector3 expected_ = Vector3::Zero();             ///< at the springs [N m]
+  Vector3 expected_ = Vector3::Zero();  ///< at the springs [N m]
+  /// Of late: the square of what was expected, and its product with what was there [(N m)^2].
+  Vector3 asked_squared_ = Vector3::Zero(), arrived_ = Vector3::Zero();
   std::array<SimTime, kWheelCount> fine_until_{};  ///< or unknown
   WheelFlags dead_{};
+  SimTime tried_at_{};  ///< the dead one will be
+  int in_vain_ = 0;     ///< times in a row
+  std::int64_t deaths_ = 0;
 };
 
 }  // namespace ballbot

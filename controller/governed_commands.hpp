@@ -18,6 +18,8 @@ struct GovernedCommands {
   /// With which the arm stands still where it is: what its torques cost is counted from there
   /// [N m].
   Vector3 arm_rest_torque = Vector3::Zero();
+  /// What its barriers wish there though nothing is near, and is not granted (Constraints).
+  Vector3 arm_position_wish = Vector3::Zero(), arm_torque_wish = Vector3::Zero();
   /// The longest force that the end-effector is asked to push with [N].
   double push = std::numeric_limits<double>::infinity();
 };

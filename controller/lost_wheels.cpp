@@ -29,12 +29,14 @@ void WheelLoss::describe(ConfigVisitor& v) {
 bool LostWheels::update(SimTime now, const WheelFlags& refused, const WheelFlags& dead) noexcept {
   if (!settings_.counted_out) return false;
   const WheelFlags before = lost_;
-  if (const auto first = std::find(dead.begin(), dead.end(), true); first != dead.end()) {
-    lost_ = {};
-    lost_[static_cast<std::size_t>(first - dead.begin())] = true;
+  if (ballbot::any(dead)) {
+    lost_ = dead;
+    dead_ = true;
     if (lost_ != before) ++losses_;
     return lost_ != before;
   }
+  if (dead_) lost_ = {};  // it is tried again, or was never dead
+  dead_ = false;
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     if (refused[i] != refused_[i]) {
       refused_[i] = refused[i];

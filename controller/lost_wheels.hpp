@@ -31,7 +31,7 @@ class LostWheels {
 
   /// One frame of the estimator.
   /// @param refused  turn as the ball does not: what the estimator refuses of wheels that turn
-  /// @param dead     get no torque: the first of them is lost for good
+  /// @param dead     gets no torque: lost as long as it is
   /// @return whether something changed
   bool update(SimTime now, const WheelFlags& refused, const WheelFlags& dead = {}) noexcept;
 
@@ -47,6 +47,7 @@ class LostWheels {
     visit(self.trusted_since_);
     visit(self.betrayals_);
     visit(self.losses_);
+    visit(self.dead_);
   }
 
  private:
@@ -56,6 +57,7 @@ class LostWheels {
   std::array<SimTime, kWheelCount> trusted_since_{};  ///< after its last loss
   std::array<int, kWheelCount> betrayals_{};          ///< in a row
   std::int64_t losses_ = 0;
+  bool dead_ = false;  ///< what is lost has no torque
 
   SimDuration trustedAfter(std::size_t wheel) const noexcept {
     return settings_.trusted_after * (1 << betrayals_[wheel]);

@@ -232,6 +232,8 @@ GovernedCommands MpcPlanner::commandsAt(const StateVector& x,
   out.arm_rest_torque =
       dynamics_.nonlinearEffects(q, VelocityVector::Zero()).tail<kArmJointCount>() +
       load.shift.tail<kArmJointCount>();
+  out.arm_position_wish = config_.constraints.armPositionWish(x.segment<kArmJointCount>(kArm1));
+  out.arm_torque_wish = config_.constraints.armTorqueWish(out.arm_rest_torque);
   return out;
 }
 

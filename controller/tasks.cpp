@@ -149,7 +149,10 @@ void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& 
   const double turn = contact_turn.value(t, known)[0] + contact.turn;
   out.R_WC = Eigen::AngleAxisd(turn, Vector3::UnitZ()) * contactFrame(contact_normal_W);
   // Who pushes does not stand still: there, torques cost what they are, which keeps the arm near.
-  out.arm_torque = out.inContact() ? Vector3::Zero() : commands.arm_rest_torque;
+  const bool stands = !out.inContact();
+  out.arm_torque = stands ? commands.arm_rest_torque : Vector3::Zero();
+  out.arm_position_wish = stands ? commands.arm_position_wish : Vector3::Zero();
+  out.arm_torque_wish = stands ? commands.arm_torque_wish : Vector3::Zero();
 }
 
 double TaskSchedule::turnAboutHinge(const Vector3& p_WE) const {

@@ -40,7 +40,9 @@ struct Tasks {
   Eigen::Vector2d ball_velocity = Eigen::Vector2d::Zero();
   double yaw = 0;
   Vector3 arm_position = Vector3::Zero();
-  Vector3 arm_torque = Vector3::Zero();        ///< that costs nothing [N m]
+  Vector3 arm_torque = Vector3::Zero();  ///< that costs nothing [N m]
+  /// Slopes that are taken back: GovernedCommands.
+  Vector3 arm_position_wish = Vector3::Zero(), arm_torque_wish = Vector3::Zero();
   Vector3 contact_force_C = Vector3::Zero();   ///< on the end-effector [N]
   Vector3 contact_moment_C = Vector3::Zero();  ///< on the end-effector, at E [N m]
   Matrix3 R_WC = Matrix3::Identity();          ///< contact frame, z_C: normal pointing to the robot

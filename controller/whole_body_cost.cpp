@@ -169,8 +169,8 @@ void WholeBodyCost::coordinateCost(const StateVector& x, const Tasks& tasks, dou
 }
 
 template <bool kExpand>
-void WholeBodyCost::armLimitCost(const StateVector& x, double share, CostTerms& terms,
-                                 StateExpansion* out) const {
+void WholeBodyCost::armLimitCost(const StateVector& x, const Tasks& tasks, double share,
+                                 CostTerms& terms, StateExpansion* out) const {
   constexpr int kNu = kPositionDim;
   const auto expandAt = [&](int i, const TwoSided& d) {
     if constexpr (kExpand) {
@@ -181,12 +181,15 @@ void WholeBodyCost::armLimitCost(const StateVector& x, double share, CostTerms& 
   BarrierSum position(constraints_.arm_position), rate(constraints_.arm_rate);
   for (int i = 0; i < kArmJointCount; ++i) {
     const double q = x[kArm1 + i], dq = x[kNu + kArmRate1 + i];
-    expandAt(kArm1 + i, addTwoSided(position, q - constraints_.arm_lower[i],
-                                    constraints_.arm_upper[i] - q, terms));
+    TwoSided d =
+        addTwoSided(position, q - constraints_.arm_lower[i], constraints_.arm_upper[i] - q, terms);
+    d.first -= tasks.arm_position_wish[i];
+    expandAt(kArm1 + i, d);
     expandAt(kNu + kArmRate1 + i, addTwoSided(rate, constraints_.arm_rate_limit + dq,
                                               constraints_.arm_rate_limit - dq, terms));
   }
-  terms.value[kArmPositionLimitCost] += share * position.value();
+  terms.value[kArmPositionLimitCost] +=
+      share * (position.value() - tasks.arm_position_wish.dot(x.segment<kArmJointCount>(kArm1)));
   terms.value[kArmRateLimitCost] += share * rate.value();
 }
 
@@ -265,7 +268,7 @@ void WholeBodyCost::stateCost(const StateVector& x, const ReducedDynamics::EndEf
                               double share, CostTerms& terms, StateExpansion* out) const {
   endEffectorCost<kExpand>(tip, by_x, tasks, share, terms, out);
   coordinateCost<kExpand>(x, tasks, share, terms, out);
-  armLimitCost<kExpand>(x, share, terms, out);
+  armLimitCost<kExpand>(x, tasks, share, terms, out);
   wheelRateLimitCost<kExpand>(x, share, terms, out);
   tiltLimitCost<kExpand>(x, share, terms, out);
   if (tasks.added != nullptr) addedCost<kExpand>(x, tasks, share, terms, out);
@@ -278,11 +281,13 @@ void WholeBodyCost::inputCost(const JointVector& tau, const ContactInput& contac
   BarrierSum limits(constraints_.torque);
   for (int i = 0; i < kJointCount; ++i) {
     const double limit = constraints_.torque_limit[i];
-    const TwoSided d = addTwoSided(limits, limit + tau[i], limit - tau[i], terms);
+    TwoSided d = addTwoSided(limits, limit + tau[i], limit - tau[i], terms);
     const bool arm = i >= kWheelCount;
     const double weight = arm ? tasks.arm_torque_weight : 0;
     const double beyond = arm ? tau[i] - tasks.arm_torque[i - kWheelCount] : 0;
-    terms.value[kArmTorqueCost] += 0.5 * share * weight * beyond * beyond;
+    const double wish = arm ? tasks.arm_torque_wish[i - kWheelCount] : 0;
+    d.first -= wish;
+    terms.value[kArmTorqueCost] += share * (0.5 * weight * beyond - wish) * beyond;
     if constexpr (kExpand) {
       out->gradient[i] = share * (weight * beyond + d.first);
       out->diagonal[i] = share * (weight + d.second);

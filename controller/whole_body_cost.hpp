@@ -71,7 +71,7 @@ class WholeBodyCost {
   void coordinateCost(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms,
                       StateExpansion* out) const;
   template <bool kExpand>
-  void armLimitCost(const StateVector& x, double share, CostTerms& terms,
+  void armLimitCost(const StateVector& x, const Tasks& tasks, double share, CostTerms& terms,
                     StateExpansion* out) const;
   template <bool kExpand>
   void wheelRateLimitCost(const StateVector& x, double share, CostTerms& terms,

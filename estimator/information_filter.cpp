@@ -49,6 +49,8 @@ void BasicInformationFilter<kDim>::step(const IntervalMeasurement& measured,
   m.smooth_v_old_W = smooth_velocity_.value();
   smooth_velocity_.advance(x_.v_WK_W, m.h);
   m.smooth_v_new_W = smooth_velocity_.value();
+  // Two wheels cannot tell a spin from a ball that rolls another way: then it is held.
+  if (kSpins && gate_.anyStuck()) spin_gate_.forget();
   if constexpr (kSpins) spin_gate_.expect(x_.spin, m);
   std::array<bool, kWheelCount> use = gate_.usable(m.has_wheel);
   FilterState next = model_.predict(x_, m);
@@ -108,7 +110,7 @@ bool BasicInformationFilter<kDim>::refuseOutliers(IntervalMeasurement& m, const 
     const Vector3 off = update_.standardizedWheels();
     const int wheel = gate_.worstOutlier(off, use);
     if constexpr (kSpins) {
-      if (!jumped && spin_gate_.jumps(commonPart(), off, use)) {
+      if (!jumped && !gate_.anyStuck() && spin_gate_.jumps(commonPart(), off, use)) {
         jumped = true;
         SpinGate::expectAnything(m);
         model_.evaluate(x_, next, m, residuals_);

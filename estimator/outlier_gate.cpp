@@ -104,6 +104,10 @@ void WheelGate::settle(const Vector3& off, const IntervalMeasurement& m,
   if (measured > 0) refused_s_ = refused >= 2 ? refused_s_ + m.h : 0.0;
 }
 
+bool WheelGate::anyStuck() const noexcept {
+  return std::any_of(wheels_.begin(), wheels_.end(), [](const Wheel& w) { return w.stuck; });
+}
+
 bool WheelGate::doubtsState() const noexcept { return refused_s_ > settings_.state_doubt_after_s; }
 
 void WheelGate::forget() noexcept {

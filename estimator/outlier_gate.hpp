@@ -69,6 +69,8 @@ class WheelGate {
   /// [standard deviations].
   double largestMean(const std::array<bool, kWheelCount>& use) const noexcept;
 
+  /// Whether an encoder is out because it is stuck.
+  bool anyStuck() const noexcept;
   /// More than one wheel has been refused for longer than the settings allow. One faulty wheel is a
   /// faulty wheel; several at once are a state that fits nothing.
   bool doubtsState() const noexcept;

@@ -246,8 +246,7 @@ std::map<std::string, double> RobotController::metrics() const {
   out["plans_with_cut_commands"] = number(state_.plans_cut);
   out["plans_begun_anew"] = number(state_.plans_begun_anew);
   out["wheels_lost"] = number(state_.wheels.losses());
-  out["drives_dead"] =
-      number(std::count(state_.drives.dead().begin(), state_.drives.dead().end(), true));
+  out["drives_dead"] = number(state_.drives.deaths());
   out["ticks_saturated"] = number(state_.ticks_saturated);
   out["ticks_not_finite"] = number(state_.ticks_not_finite);
   if (state_.ticks_released > 0) {

@@ -132,7 +132,7 @@ void readLimit(const UrdfElement& in, UrdfJoint& joint) {
   }
   const auto said = [&](const char* name) {
     const auto value = limit->limitIfAny(name);
-    return value && std::abs(*value) < kUnlimited ? value : std::nullopt;
+    return value && *value != 0 && std::abs(*value) < kUnlimited ? value : std::nullopt;
   };
   joint.drive.effort = said("effort");
   joint.drive.velocity = said("velocity");

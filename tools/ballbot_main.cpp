@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
   addFmuCommand(program, result);
   addStudyCommand(program, result);
   addCaptureCommand(program, result);
+  addRobotCommand(program, result);
   addDoctorCommand(program, result);
 
   readNumbersAsFilesDo(program);

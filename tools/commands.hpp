@@ -26,6 +26,7 @@ void addIdentifyCommand(CLI::App& program, ExitCode& result);
 void addFmuCommand(CLI::App& program, ExitCode& result);
 void addStudyCommand(CLI::App& program, ExitCode& result);
 void addCaptureCommand(CLI::App& program, ExitCode& result);
+void addRobotCommand(CLI::App& program, ExitCode& result);
 void addDoctorCommand(CLI::App& program, ExitCode& result);
 
 }  // namespace ballbot

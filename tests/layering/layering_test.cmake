@@ -15,7 +15,8 @@ set(may_hil core model cosim plant report)
 set(may_fmi core model cosim plant)
 set(may_studies core experiment report)
 set(may_capture core model controller experiment studies report)
-set(may_tools core model messages cosim metrics report experiment hil fmi studies capture)
+set(may_survey core model)
+set(may_tools core model messages cosim metrics report experiment hil fmi studies capture survey)
 set(may_examples solver)
 
 # The plant's face to the co-simulation is the one file of plant/ that knows cosim.
@@ -96,7 +97,7 @@ foreach(file ${files})
   endforeach()
 endforeach()
 # What is allowed and not used is no rule, only a hole.
-foreach(folder core model messages cosim plant estimator solver controller metrics report experiment hil fmi studies capture tools examples)
+foreach(folder core model messages cosim plant estimator solver controller metrics report experiment hil fmi studies capture survey tools examples)
   foreach(target ${may_${folder}})
     if(seen GREATER 0 AND NOT used_${folder}_${target})
       message(SEND_ERROR "${folder}/ may include ${target}/ and does not: take it off its list here.")

@@ -60,7 +60,7 @@ void describe(ConfigVisitor& v, double& share) {
 
 void addGentleLaw() {
   lawKinds().add({"gentle",
-                  {{may("gentle", "a law with a share of the LQR's gain"),
+                  {{must("gentle", "a law with a share of the LQR's gain"),
                     [](ConfigVisitor& v, const RobotParameters&) {
                       double share = 1;
                       describe(v, share);
