@@ -281,22 +281,19 @@ void WholeBodyCost::inputCost(const JointVector& tau, const ContactInput& contac
   BarrierSum limits(constraints_.torque);
   for (int i = 0; i < kJointCount; ++i) {
     const double limit = constraints_.torque_limit[i];
-    TwoSided d = addTwoSided(limits, limit + tau[i], limit - tau[i], terms);
+    const TwoSided d = addTwoSided(limits, limit + tau[i], limit - tau[i], terms);
     const bool arm = i >= kWheelCount;
     const double weight = arm ? tasks.arm_torque_weight : 0;
     const double beyond = arm ? tau[i] - tasks.arm_torque[i - kWheelCount] : 0;
     const double wish = arm ? tasks.arm_torque_wish[i - kWheelCount] : 0;
-    d.first -= wish;
     terms.value[kArmTorqueCost] += share * (0.5 * weight * beyond - wish) * beyond;
     if constexpr (kExpand) {
-      out->gradient[i] = share * (weight * beyond + d.first);
+      out->gradient[i] = share * (weight * beyond + (d.first - wish));
       out->diagonal[i] = share * (weight + d.second);
     }
   }
   terms.value[kTorqueLimitCost] += share * limits.value();
-
   forceCost<kExpand>(contact.head<3>(), tasks, share, terms, out);
-
   const Vector3 weight = tasks.withMoments() ? tasks.contact_moment_weight : Vector3::Ones();
   const Vector3 target = tasks.withMoments() ? tasks.contact_moment_C : Vector3::Zero();
   const Vector3 error = contact.tail<3>() - target;

@@ -27,8 +27,8 @@ struct UrdfLink {
 enum class UrdfJointType { kRevolute, kContinuous, kPrismatic, kFixed, kFloating, kPlanar };
 const char* toText(UrdfJointType type);
 
-/// What a URDF says of the drive at a joint, where it says something. A limit beyond kUnlimited or of
-/// zero, which exporters write where nobody told them one, and a friction of zero, which is the
+/// What a URDF says of the drive at a joint, where it says something. A limit beyond kUnlimited or
+/// of zero, which exporters write where nobody told them one, and a friction of zero, which is the
 /// format's default, say nothing.
 struct UrdfDrive {
   std::string where;                            ///< "<file>:<line>: joint 'x'"

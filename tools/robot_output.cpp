@@ -46,9 +46,8 @@ std::string workspaceText(const Workspace& w) {
       "  stands at up to                {:.2f} deg, with the arm at {:.3g} rad\n"
       "  holds its arm with up to       {:.3g} N m\n"
       "  falls at                       {:.3g} to {:.3g} 1/s\n",
-      w.poses, w.unbalanced, w.largest_tilt * kDegPerRad,
-      fmt::join(shown(w.most_tilted_arm), ", "), fmt::join(shown(w.largest_arm_torque), ", "),
-      w.least_fall_rate, w.largest_fall_rate);
+      w.poses, w.unbalanced, w.largest_tilt * kDegPerRad, fmt::join(shown(w.most_tilted_arm), ", "),
+      fmt::join(shown(w.largest_arm_torque), ", "), w.least_fall_rate, w.largest_fall_rate);
   return out + fmt::format(
                    "  the end-effector reaches       {:.2f} to {:.2f} m from the ball's centre, "
                    "{:.2f} to {:.2f} m above the floor\n",

@@ -61,7 +61,8 @@ TEST_F(RobotDraftTest, DrivesKeepTheLimitsOfTheUrdf) {
 
 TEST_F(RobotDraftTest, WheelsThatNoDescriptionCanHaveAreNamed) {
   editUrdf("wheel_3_joint", "-0.11573839034650513", "-0.12573839034650513");
-  EXPECT_THAT(draftError(), HasSubstr("link 'wheel_3' is 0.195284 m from the ball's centre at 46.8152 degrees"));
+  EXPECT_THAT(draftError(),
+              HasSubstr("link 'wheel_3' is 0.195284 m from the ball's centre at 46.8152 degrees"));
   editUrdf("wheel_1_joint", "xyz=\"0.13364318164425748 0 0.13364318164425748\"",
            "xyz=\"0.01 0 0.01\"");
   EXPECT_THAT(draftError(), HasSubstr("link 'wheel_1' is 0.01414 m from the ball's, inside the"));
