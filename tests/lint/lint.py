@@ -20,8 +20,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ["core", "model", "messages", "cosim", "plant", "estimator", "solver", "controller", "metrics", "report",
-           "viewer", "experiment", "hil", "fmi", "studies", "tools"]
+FOLDERS = re.search(r"set\(BALLBOT_FOLDERS([^)]*)\)", (ROOT / "CMakeLists.txt").read_text())[1].split()
 # What is compiled for one version of an interface, or from the build folder.
 APART = re.compile(r"^fmi/(fmi[23]_|exports)|^messages/frame_fields\.hpp$")
 

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -57,10 +58,14 @@ class EditedRobot : public ::testing::Test {
     return readRobot(in);
   }
 
-  /// The error with the folder cut off.
+  /// The error that reading makes, with the folder cut off.
   std::string error() const {
+    return errorOf([this] { read(); });
+  }
+  template <typename Work>
+  std::string errorOf(Work&& work) const {
     try {
-      read();
+      std::forward<Work>(work)();
     } catch (const InputError& e) {
       std::string text = e.what();
       const std::string prefix = folder_.string() + "/";

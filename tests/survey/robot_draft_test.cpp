@@ -20,12 +20,7 @@ class RobotDraftTest : public EditedRobot {
     return readRobot(in);
   }
   std::string draftError() const {
-    try {
-      draft();
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "no error";
+    return errorOf([this] { draft(); });
   }
 };
 

@@ -1,33 +1,18 @@
 // A robot of which something is broken, and one that is only slow.
-#include <map>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-#include "tests/tools/program.hpp"
+#include "tests/tools/scenario_run.hpp"
 
 namespace ballbot {
 namespace {
 
-nlohmann::json pushed(const std::vector<std::string>& changes) {
-  const TemporaryFolder folder;
-  std::vector<std::string> arguments = {"run",          scenarioPath("push"),
-                                        "--in-process", "--quiet",
-                                        "--no-report",  "--json",
-                                        "--out",        folder / "run",
-                                        "--set",        "requirements={}",
-                                        "--set",        "plant.fidelity.multibody=reduced_wheels"};
-  for (const std::string& change : changes) {
-    arguments.push_back("--set");
-    arguments.push_back(change);
-  }
-  const Finished run = runBallbot(arguments);
-  auto json = nlohmann::json::parse(run.out, nullptr, false);
-  EXPECT_FALSE(json.is_discarded()) << run.err;
-  return json;
+nlohmann::json pushed(std::vector<std::string> changes) {
+  changes.insert(changes.end(), {"requirements={}", "plant.fidelity.multibody=reduced_wheels"});
+  return summaryOf({"push", changes});
 }
 
 std::string dead(int wheel, double seconds) {
@@ -45,7 +30,7 @@ TEST_P(DeadDrive, InAPushIsSurvived) {
 }
 INSTANTIATE_TEST_SUITE_P(Of, DeadDrive, ::testing::Values(1, 2, 3));
 
-TEST(DeadDrive, ThatComesBackIsCountedOnAgain) {
+TEST(DrivePausing, IsCountedOnAgain) {
   const auto json = pushed({"duration_s=12", dead(2, 0.12)});
   EXPECT_LT(json["metrics"]["largest_ball_excursion_m"].get<double>(), 0.3);
   EXPECT_LT(json["metrics"]["final_tilt_deg"].get<double>(), 2.5);

@@ -4,15 +4,19 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "core/random.hpp"
-#include "tests/tools/program.hpp"
+#include "tests/tools/scenario_run.hpp"
 
 namespace ballbot {
 namespace {
 
 const std::string kTasks = "controller.mpc.tasks.";
+
+nlohmann::json sent(const std::string& scenario, std::vector<std::string> changes, int seed) {
+  changes.insert(changes.begin(), {"requirements={}", "plant.fidelity.multibody=reduced_wheels"});
+  return summaryOf({scenario, changes, seed});
+}
 
 struct FarCommand {
   const char* name;
@@ -28,14 +32,9 @@ class FarCommands : public ::testing::TestWithParam<FarCommand> {};
 
 TEST_P(FarCommands, AreApproachedAndDoNotFellTheRobot) {
   const FarCommand& far = GetParam();
-  const TemporaryFolder folder;
-  const Finished run =
-      runBallbot({"run", scenarioPath(far.scenario), "--seed", "3", "--in-process", "--quiet",
-                  "--no-report", "--json", "--out", folder / "run", "--set", "duration_s=9",
-                  "--set", "requirements={}", "--set", "plant.fidelity.multibody=reduced_wheels",
-                  "--set", kTasks + far.task + ".reference=" + far.reference});
-  const auto json = nlohmann::json::parse(run.out, nullptr, false);
-  ASSERT_FALSE(json.is_discarded()) << run.err;
+  const auto json =
+      sent(far.scenario, {"duration_s=9", kTasks + far.task + ".reference=" + far.reference}, 3);
+  ASSERT_FALSE(json.is_null());
   EXPECT_FALSE(json["fell"].get<bool>());
   EXPECT_LT(json["largest_tilt_deg"].get<double>(), 20);
   EXPECT_EQ(json["metrics"]["plans_refused"].get<double>(), 0);
@@ -62,17 +61,12 @@ TEST(FarFrameCommands, AreApproachedAndDoNotFellTheRobot) {
   const char* const place = "{moves: [{at_s: 2, by: [100, 0, 0]}]}";
   const char* const turn = "{moves: [{at_s: 3, by: [30, 2, 2]}]}";
   for (const char* body : {"base", "arm_2"}) {
-    const TemporaryFolder folder;
     const std::string frames = fmt::format(
         "frames=[{{name: one, body: {}, position: {{weight: 100, reference: {}}}, orientation: "
         "{{weight: [0, 0, 5], reference: {}}}}}]",
         body, place, turn);
-    const Finished run = runBallbot(
-        {"run", scenarioPath("balance"), "--seed", "3", "--in-process", "--quiet", "--no-report",
-         "--json", "--out", folder / "run", "--set", "duration_s=9", "--set", "requirements={}",
-         "--set", "plant.fidelity.multibody=reduced_wheels", "--set", kTasks + frames});
-    const auto json = nlohmann::json::parse(run.out, nullptr, false);
-    ASSERT_FALSE(json.is_discarded()) << run.err;
+    const auto json = sent("balance", {"duration_s=9", kTasks + frames}, 3);
+    ASSERT_FALSE(json.is_null());
     EXPECT_FALSE(json["fell"].get<bool>()) << body;
     EXPECT_LT(json["largest_tilt_deg"].get<double>(), 20) << body;
     EXPECT_GT(json["metrics"]["plans_with_cut_commands"].get<double>(), 0) << body;
@@ -119,26 +113,16 @@ TEST_P(ManyFarCommands, AtOnceOnAllTasksDoNotFellTheRobot) {
   const std::string scenario = std::vector<std::string>{
       "balance", "ee_pose_tracking", "whole_body_sequence", "circle"}[GetParam() % 4];
   AbsurdCommands absurd(GetParam());
-  const TemporaryFolder folder;
-  std::vector<std::string> arguments = {"run",          scenarioPath(scenario),
-                                        "--seed",       std::to_string(1 + GetParam()),
-                                        "--in-process", "--quiet",
-                                        "--no-report",  "--json",
-                                        "--out",        folder / "run",
-                                        "--set",        "duration_s=20",
-                                        "--set",        "requirements={}",
-                                        "--set",        "plant.fidelity.multibody=reduced_wheels"};
+  std::vector<std::string> changes = {"duration_s=20"};
   const auto send = [&](const char* task, int dimension, double scale) {
-    arguments.push_back("--set");
-    arguments.push_back(kTasks + task + ".reference=" + absurd.moves(dimension, scale));
+    changes.push_back(kTasks + task + ".reference=" + absurd.moves(dimension, scale));
   };
   if (scenario != "ee_pose_tracking") send("ball_position", 2, 1);  // there the ball is free
   if (scenario != "balance") send("ee_position", 3, 1);
   send("yaw", 1, 1);
   send("ee_orientation", 3, 0.5);
-  const Finished run = runBallbot(arguments);
-  const auto json = nlohmann::json::parse(run.out, nullptr, false);
-  ASSERT_FALSE(json.is_discarded()) << run.err;
+  const auto json = sent(scenario, changes, 1 + GetParam());
+  ASSERT_FALSE(json.is_null());
   EXPECT_FALSE(json["fell"].get<bool>());
   EXPECT_LT(json["largest_tilt_deg"].get<double>(), 35);
   EXPECT_GT(json["metrics"]["plans_with_cut_commands"].get<double>(), 0);

@@ -9,32 +9,17 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-#include "tests/tools/program.hpp"
+#include "tests/tools/scenario_run.hpp"
 
 namespace ballbot {
 namespace {
 
 nlohmann::json runOnFloor(const std::string& scenario, double held, int seed,
-                          const std::vector<std::string>& changes, const std::string& out = "") {
-  const TemporaryFolder folder;
-  std::vector<std::string> arguments = {
-      "run",          scenarioPath(scenario),
-      "--seed",       std::to_string(seed),
-      "--in-process", "--quiet",
-      "--no-report",  "--json",
-      "--out",        out.empty() ? folder / "run" : out,
-      "--set",        "requirements={}",
-      "--set",        fmt::format("plant.spin_friction.torque_Nm={}", held)};
-  for (const std::string& change : changes) {
-    arguments.push_back("--set");
-    arguments.push_back(change);
-  }
-  const Finished run = runBallbot(arguments);
-  auto json = nlohmann::json::parse(run.out, nullptr, false);
-  EXPECT_FALSE(json.is_discarded()) << run.err;
-  return json;
+                          std::vector<std::string> changes, const std::string& out = "") {
+  const std::string floor = fmt::format("plant.spin_friction.torque_Nm={}", held);
+  changes.insert(changes.begin(), {"requirements={}", floor});
+  return summaryOf({scenario, changes, seed, out});
 }
 
 struct Slippery {

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/tools/program.hpp"
+#include "tests/tools/scenario_run.hpp"
 
 namespace ballbot {
 namespace {
@@ -24,15 +24,10 @@ class Margins : public ::testing::Test {
 
   /// Whether the robot, let go three degrees off balance, falls within eight seconds.
   static bool falls(const std::string& insertion) {
-    const TemporaryFolder folder;
-    const Finished run =
-        runBallbot({"run", scenarioPath("balance"), "--in-process", "--quiet", "--json",
-                    "--no-report", "--set", "duration_s=8", "--set", "requirements={}", "--set",
-                    "plant.fidelity.multibody=reduced_wheels", "--set",
-                    "plant.wheel_loop_insertion={" + insertion + "}", "--out", folder / "run"},
-                   120);
-    EXPECT_LE(run.exit_code, 1) << run.err;
-    return nlohmann::json::parse(run.out)["fell"].get<bool>();
+    return summaryOf({"balance",
+                      {"duration_s=8", "requirements={}", "plant.fidelity.multibody=reduced_wheels",
+                       "plant.wheel_loop_insertion={" + insertion + "}"}})["fell"]
+        .get<bool>();
   }
 
  private:

@@ -2,22 +2,18 @@
 // where it is learned; and does not, where it is not. Friction lets the robot sway by up to a
 // centimetre about a place that is right (docs/theory/estimator.md has the figures of five seeds).
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
-#include "tests/tools/program.hpp"
+#include "tests/tools/scenario_run.hpp"
 
 namespace ballbot {
 namespace {
 
 double finalBallError(const std::string& unknown, bool learned) {
-  const TemporaryFolder folder;
-  const Finished run = runBallbot(
-      {"run", scenarioPath("balance"), "--quiet", "--json", "--no-report", "--in-process", "--out",
-       folder / "run", "--set", "duration_s=12", "--set", unknown, "--set",
-       std::string("controller.offset_free.enabled=") + (learned ? "true" : "false")},
-      600);
-  const auto json = nlohmann::json::parse(run.out, nullptr, false);
-  if (json.is_discarded() || json["fell"].get<bool>()) return 1;
+  const auto json =
+      summaryOf({"balance",
+                 {"duration_s=12", unknown,
+                  std::string("controller.offset_free.enabled=") + (learned ? "true" : "false")}});
+  if (json.is_null() || json["fell"].get<bool>()) return 1;
   return json["final_ball_position_error_m"].get<double>();
 }
 

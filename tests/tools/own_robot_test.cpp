@@ -6,10 +6,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "tests/model/turned_urdf.hpp"
-#include "tests/tools/program.hpp"
+#include "tests/tools/scenario_run.hpp"
 
 namespace ballbot {
 namespace {
@@ -36,24 +35,16 @@ TEST(OwnRobot, RunsAsTheOneItIsWithOtherFramesAndNames) {
   const std::string urdf = folder / "own.urdf";
   std::ofstream(urdf) << text;
 
-  const auto run = [&](const std::vector<std::string>& changes, const std::string& out) {
-    std::vector<std::string> arguments = {
-        "run", scenarioPath("push"), "--in-process", "--quiet", "--json", "--out", folder / out};
-    for (const std::string& change : changes) {
-      arguments.push_back("--set");
-      arguments.push_back(change);
-    }
-    const Finished done = runBallbot(arguments);
-    EXPECT_EQ(done.exit_code, 0) << done.err;
-    return nlohmann::json::parse(done.out)["metrics"];
-  };
   // Without what counts steps: a count that falls on the other side is another run.
   const std::vector<std::string> common = {"duration_s=6", "requirements={}",
                                            "plant.fidelity.sensors=perfect"};
   auto changes = common;
   changes.push_back("robot.urdf=" + urdf);
   changes.emplace_back("robot.links={base: chassis, arm_2: upper_arm, ball: sphere}");
-  const auto plain = run(common, "plain"), own = run(changes, "own");
+  const auto plain_run = summaryOf({"push", common});
+  const auto own_run = summaryOf({"push", changes, 1, folder / "own", true});
+  EXPECT_TRUE(plain_run["passed"].get<bool>() && own_run["passed"].get<bool>());
+  const auto plain = plain_run["metrics"], own = own_run["metrics"];
   for (const char* name : {"largest_tilt_deg", "largest_ball_excursion_m", "tilt_rms_deg",
                            "rms_wheel_torque_error_Nm", "largest_push_excursion_m"}) {
     EXPECT_NEAR(own[name].get<double>(), plain[name].get<double>(),
