@@ -111,7 +111,8 @@ void addRobotCommand(CLI::App& program, ExitCode& result) {
       "  ballbot robot configs/robots/ballbot.yaml\n"
       "  ballbot robot my_robot.urdf --new my_robot.yaml\n"
       "  ballbot robot my_robot.urdf --set links.base=chassis_link --json\n"
-      "Exit codes: 0 it can stand, 2 bad input, or a robot that cannot.");
+      "Exit codes: 0 it can stand, 2 bad input, or a robot that cannot, 4 output could not be "
+      "written.");
   app->callback([a, &result] { result = robotCommand(*a); });
 }
 

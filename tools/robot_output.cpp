@@ -70,7 +70,7 @@ std::string leanText(const RobotParameters& robot, const RobotSurvey& s) {
   if (s.top_speed >= kUnlimited) return out;
   return out +
          fmt::format(
-             "  top speed                      {:.2f} m/s; from there it brakes within {:.2f} m "
+             "  top speed                      {:.2f} m/s; to brake from there takes {:.2f} m "
              "or more\n",
              s.top_speed, s.braking_distance);
 }
