@@ -57,9 +57,11 @@ MpcConfig everythingOn(const RobotParameters& robot, double length, int stages, 
 /// A real-time iteration as a run does it: the last plan read at new knots, rolled out from a new
 /// state while dynamics and cost are approximated, Riccati sweep, line search, new plan.
 /// @param held  by the floor against a spin of the ball; kUnlimited without end [N m]
+/// @param friction  of the wheels on the ball
 void mpcIteration(benchmark::State& state, MpcConfig::Engine kind, double length, int stages,
-                  int threads, double held) {
-  const RobotParameters robot = benchmarkRobot();
+                  int threads, double held, double friction) {
+  RobotParameters robot = benchmarkRobot();
+  robot.wheels.friction = friction;
   MpcConfig config = everythingOn(robot, length, stages, threads);
   config.engine = kind;
   const std::unique_ptr<MpcEngine> engine = makeEngine(robot, config);
@@ -103,9 +105,10 @@ void mpcIteration(benchmark::State& state, MpcConfig::Engine kind, double length
 }
 
 void registerIteration(std::string name, MpcConfig::Engine kind, double length, int stages,
-                       int threads, double held = kUnlimited) {
+                       int threads, double held = kUnlimited, double friction = kUnlimited) {
   if (threads == 2) name += "/threads:2";
-  benchmark::RegisterBenchmark(name.c_str(), mpcIteration, kind, length, stages, threads, held)
+  benchmark::RegisterBenchmark(name.c_str(), mpcIteration, kind, length, stages, threads, held,
+                               friction)
       ->Unit(benchmark::kMillisecond)
       ->UseRealTime();
 }
@@ -119,6 +122,8 @@ bool registerIterations() {
   }
   registerIteration("mpc_iteration_floor_limited/T1_N50", MpcConfig::Engine::kDiscrete, 1, 50, 1,
                     0.4);
+  registerIteration("mpc_iteration_traction_limited/T1_N50", MpcConfig::Engine::kDiscrete, 1, 50, 1,
+                    0.4, 0.8);
   registerIteration("mpc_iteration_continuous/T1_N50", MpcConfig::Engine::kContinuous, 1, 50, 1);
   return true;
 }

@@ -7,6 +7,7 @@
 #include "controller/rigid_arm.hpp"
 #include "model/frames.hpp"
 #include "model/reduced_dynamics.hpp"
+#include "model/wheel_loads.hpp"
 
 namespace ballbot {
 namespace {
@@ -17,6 +18,46 @@ constexpr int kAngles[] = {kPitch, kRoll};  // rows of x that stand in s before 
 /// Rows of x that make up s.
 int rowOfState(int i) {
   return i < BalanceModel::kRates ? kAngles[i] : kPositionDim + i - BalanceModel::kRates;
+}
+
+/// Normal forces and tractions about rest, by differences.
+void findWheelForces(const ReducedDynamics& dynamics, const Equilibrium& rest, BalanceModel& m) {
+  const WheelLoadModel loads(dynamics.robot());
+  const auto at = [&](const BalanceModel::State& s, const Vector3& u, const Eigen::Vector2d& f) {
+    StateVector x = rest.x;
+    for (int i = 0; i < BalanceModel::kStates; ++i) x[rowOfState(i)] += s[i];
+    JointVector tau = rest.tau;
+    tau.head<kWheelCount>() += u;
+    VelocityVector dnu =
+        dynamics.acceleration(x.head<kPositionDim>(), x.tail<kVelocityDim>(), tau, Vector3::Zero());
+    dnu.head<kMoving>() += m.E.bottomRows<kMoving>() * f;
+    return loads.at(x, dnu, tau.head<kWheelCount>(), {f.x(), f.y(), 0});
+  };
+  using State = BalanceModel::State;
+  const State s = State::Zero();
+  const Vector3 u = Vector3::Zero();
+  const Eigen::Vector2d f = Eigen::Vector2d::Zero();
+  const WheelLoads at_rest = at(s, u, f);
+  m.normal_force.at_rest = at_rest.normal;
+  m.traction.at_rest = at_rest.traction;
+  constexpr double h = 1e-5;
+  const auto slope = [&](const WheelLoads& above, const WheelLoads& below, int column,
+                         auto BalanceModel::OfWheels::*by) {
+    (m.normal_force.*by).col(column) = (above.normal - below.normal) / (2 * h);
+    (m.traction.*by).col(column) = (above.traction - below.traction) / (2 * h);
+  };
+  for (int i = 0; i < BalanceModel::kStates; ++i) {
+    const State d = h * State::Unit(i);
+    slope(at(d, u, f), at(-d, u, f), i, &BalanceModel::OfWheels::by_state);
+  }
+  for (int i = 0; i < kWheelCount; ++i) {
+    const Vector3 d = h * Vector3::Unit(i);
+    slope(at(s, d, f), at(s, -d, f), i, &BalanceModel::OfWheels::by_torque);
+  }
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector2d d = h * Eigen::Vector2d::Unit(i);
+    slope(at(s, u, d), at(s, u, -d), i, &BalanceModel::OfWheels::by_force);
+  }
 }
 
 /// e^X by Taylor's series of X / 2^k, squared k times. X / 2^k is so small that the terms left out
@@ -75,6 +116,7 @@ BalanceModel BalanceModel::of(const RobotParameters& robot, const Vector3& arm,
   m.momentum_rate.rightCols<kMoving>() = upper_mass * velocityOf(rigid.baseWithWheels().p_LLcm_L);
   m.momentum_rate.block<2, 2>(0, kRates) += rigid.ball.mass * Eigen::Matrix2d::Identity();
 
+  findWheelForces(dynamics, rest, m);
   m.torque_at_rest = rest.tau.head<kWheelCount>();
   m.pitch_at_rest = q[kPitch];
   m.roll_at_rest = q[kRoll];

@@ -28,8 +28,18 @@ struct BalanceModel {
   /// The floor's horizontal force on the ball is momentum_rate * ds/dt - f [N].
   Eigen::Matrix<double, 2, kStates> momentum_rate;
   Eigen::Matrix<double, kWheelCount, 1> torque_at_rest;  ///< [N m]
-  double pitch_at_rest = 0, roll_at_rest = 0;            ///< [rad]
-  double weight = 0;                                     ///< of everything [N]
+
+  /// Something of each wheel on the ball: at_rest + by_state s + by_torque u + by_force f.
+  struct OfWheels {
+    Vector3 at_rest = Vector3::Zero();
+    Eigen::Matrix<double, kWheelCount, kStates> by_state =
+        Eigen::Matrix<double, kWheelCount, kStates>::Zero();
+    Matrix3 by_torque = Matrix3::Zero();
+    Eigen::Matrix<double, kWheelCount, 2> by_force = Eigen::Matrix<double, kWheelCount, 2>::Zero();
+  };
+  OfWheels normal_force, traction;             ///< [N], as WheelLoadModel has them
+  double pitch_at_rest = 0, roll_at_rest = 0;  ///< [rad]
+  double weight = 0;                           ///< of everything [N]
 
   /// @param arm      angles at which the arm is held [rad]
   /// @param p_BP_B   where f acts, from the base's origin (the ball's centre) [m]

@@ -26,7 +26,9 @@ struct BoundCase {
            a.momentum_rate == b.momentum_rate && a.torque_at_rest == b.torque_at_rest &&
            a.weight == b.weight && limits.wheel_torque == o.limits.wheel_torque &&
            limits.wheel_speed == o.limits.wheel_speed && limits.tilt == o.limits.tilt &&
-           limits.floor_friction == o.limits.floor_friction;
+           a.normal_force.by_torque == b.normal_force.by_torque &&
+           limits.floor_friction == o.limits.floor_friction &&
+           limits.wheel_friction == o.limits.wheel_friction;
   }
 };
 
@@ -60,6 +62,7 @@ BalanceLimits balanceLimits(const RunConfig& config, double tilt_limit_deg) {
   out.wheel_speed = speed_limited ? endlessIfUnlimited(plant.robot.wheel_speed_limit) : kNoEnd;
   out.tilt = kRadPerDeg * tilt_limit_deg;
   out.floor_friction = plant.floor.friction;
+  if (plant.fidelity.wheels_slip) out.wheel_friction = plant.wheel_contact.friction;
   return out;
 }
 

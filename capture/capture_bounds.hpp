@@ -25,7 +25,8 @@ struct CaptureBound {
 };
 
 /// What a scenario's robot cannot go beyond: its wheels' torque (the tracker's limit where that is
-/// lower), the speed of their drives where the plant has such, and friction on its floor.
+/// lower), the speed of their drives where the plant has such, friction on its floor, and
+/// friction of the wheels on the ball where they can slip.
 BalanceLimits balanceLimits(const RunConfig& config, double tilt_limit_deg);
 
 /// By variant, duration and height: [(variant * durations + duration) * heights + height].

@@ -62,6 +62,7 @@ class PushProgram {
     }
     const double pushed = stretch.pushed ? 1 : 0;
     addFriction(torque, pushed);
+    if (std::isfinite(limits_.wheel_friction)) addTraction(torque, pushed);
     StateVariables next;
     for (int& s : next) s = program_.addVariable(-kNoEnd, kNoEnd);
     const BalanceModel::State E = pushed * step.E * direction_;
@@ -107,6 +108,30 @@ class PushProgram {
       program_.addRow(0, 0, row);
     }
     addCircle(floor[0], floor[1], limits_.floor_friction * model_.weight, 0, 0);
+  }
+
+  /// |traction| <= friction times normal force of each wheel, at the beginning of a step.
+  void addTraction(const std::array<int, kWheelCount>& torque, double pushed) {
+    const auto &normal = model_.normal_force, &traction = model_.traction;
+    const double mu = limits_.wheel_friction;
+    for (int wheel = 0; wheel < kWheelCount; ++wheel) {
+      for (const double sign : {1.0, -1.0}) {
+        // mu N - sign T >= 0
+        const auto of = [&](const auto& of_normal, const auto& of_traction) {
+          return mu * of_normal - sign * of_traction;
+        };
+        std::vector<Term> row;
+        for (int j = 0; j < n; ++j) {
+          row.push_back({state_[j], of(normal.by_state(wheel, j), traction.by_state(wheel, j))});
+        }
+        for (int w = 0; w < kWheelCount; ++w) {
+          row.push_back({torque[w], of(normal.by_torque(wheel, w), traction.by_torque(wheel, w))});
+        }
+        row.push_back({force_, pushed * of(normal.by_force.row(wheel).dot(direction_),
+                                           traction.by_force.row(wheel).dot(direction_))});
+        program_.addRow(-of(normal.at_rest[wheel], traction.at_rest[wheel]), kNoEnd, row);
+      }
+    }
   }
 
   void addSpeedAndTilt() {

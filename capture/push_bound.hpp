@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "capture/balance_model.hpp"
 
 namespace ballbot {
@@ -10,6 +12,8 @@ struct BalanceLimits {
   double wheel_speed = 0;     ///< of each wheel relative to the base [rad/s]
   double tilt = 0;            ///< of the base against the vertical [rad]
   double floor_friction = 0;  ///< horizontal force over weight, at the floor
+  double wheel_friction =
+      std::numeric_limits<double>::infinity();  ///< traction over normal force, at each wheel
 };
 
 /// How a push is met.

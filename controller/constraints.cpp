@@ -106,6 +106,15 @@ void Constraints::describe(ConfigVisitor& v) {
               in.number(may("share_of_limit", "share of what the floor holds that a plan may use"),
                         spin_torque_share, {0.1, 1});
             });
+  v.section(
+      may("traction",
+          "cost of traction at the wheels beyond what friction holds (robot.wheels.friction)"),
+      [&](ConfigVisitor& in) {
+        in.number(may("weight", "of half the square of the torque beyond, at the wheel's axle"),
+                  traction_weight, {0, 1e6});
+        in.number(may("share_of_limit", "share of what friction holds that a plan may use"),
+                  traction_share, {0.1, 1});
+      });
   v.section(may("tilt_limit", "barrier at the largest tilt of the base"), [&](ConfigVisitor& in) {
     describeBarrier(in, tilt);
     in.number(may("limit_deg", "largest angle of the base from the vertical"), tilt_limit, {1, 80},

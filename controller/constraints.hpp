@@ -39,6 +39,11 @@ struct Constraints {
   double spin_torque_share = 0.7;  ///< of what the floor holds, which the limit is
   RelaxedBarrier spin_torque{0.02, 0.05};
 
+  /// Cost of what the wheels lack in traction, at half its square in N m; 0: they lack none
+  /// [1/(N m)^2].
+  double traction_weight = 20;
+  double traction_share = 0.7;  ///< of what friction holds, from which on they lack it
+
   double tilt_limit = 0.45;  ///< of the base from vertical [rad]
   RelaxedBarrier tilt{0.05, 0.02};
 

@@ -12,14 +12,21 @@ void takePayload(const PlanConditions& conditions, double& payload, Problem& pro
 }
 
 /// Of those that change anything the last one, each around the one before.
-template <typename Base, typename Floor, typename Lost, typename Disturbed, typename Pushed>
-Base* outermost(Base* problem, Floor& floor, Lost& lost, Disturbed& disturbed,
-                Pushed& pushed) noexcept {
+template <typename Base, typename Floor, typename Lost, typename Traction, typename Disturbed,
+          typename Pushed>
+Base* outermost(Base* problem, Floor& floor, Lost& lost, Traction& traction, Disturbed& disturbed,
+                Pushed& pushed, const Push& push) noexcept {
   // Without a wheel what the floor holds of a spin is no matter of choice: it balances or turns.
+  const bool floor_counts = !lost.isLost() && floor.isLimited();
   if (lost.isLost()) {
     problem = &lost;
-  } else if (floor.isLimited()) {
+  } else if (floor_counts) {
     problem = &floor;
+  }
+  if (traction.isLimited()) {
+    traction.setInner(*problem);
+    traction.set(push, floor_counts);
+    problem = &traction;
   }
   if (disturbed.isLoaded()) {
     disturbed.setInner(*problem);
@@ -44,6 +51,7 @@ PlanProblem<NU>::PlanProblem(const RobotParameters& robot, const Constraints& co
       whole_body_(robot, constraints, shaping, terminal, knots),
       floor_limited_(robot, constraints, knots, whole_body_),
       lost_wheel_(whole_body_),
+      traction_(robot, constraints, knots, whole_body_),
       disturbed_(shaping, knots, whole_body_),
       pushed_(knots, whole_body_) {}
 
@@ -61,7 +69,8 @@ const typename PlanProblem<NU>::Base& PlanProblem<NU>::at(
   disturbed_.setLoad(conditions.load);
   pushed_.setPush(conditions.push);
   const Base* innermost = &whole_body_;
-  return *outermost(innermost, floor_limited_, lost_wheel_, disturbed_, pushed_);
+  return *outermost(innermost, floor_limited_, lost_wheel_, traction_, disturbed_, pushed_,
+                    conditions.push);
 }
 
 template <int NU>
@@ -74,6 +83,7 @@ ContinuousPlanProblem<NU>::ContinuousPlanProblem(const RobotParameters& robot,
       whole_body_(robot, constraints, shaping, terminal, std::move(schedule)),
       floor_limited_(robot, constraints, whole_body_),
       lost_wheel_(whole_body_),
+      traction_(robot, constraints, whole_body_),
       disturbed_(shaping, whole_body_),
       pushed_(whole_body_) {}
 
@@ -88,7 +98,8 @@ typename ContinuousPlanProblem<NU>::Base& ContinuousPlanProblem<NU>::at(
   disturbed_.setLoad(conditions.load);
   pushed_.setPush(conditions.push);
   Base* innermost = &whole_body_;
-  return *outermost(innermost, floor_limited_, lost_wheel_, disturbed_, pushed_);
+  return *outermost(innermost, floor_limited_, lost_wheel_, traction_, disturbed_, pushed_,
+                    conditions.push);
 }
 
 template class PlanProblem<6>;

@@ -8,6 +8,7 @@
 #include "controller/lost_wheel_problem.hpp"
 #include "controller/plan_conditions.hpp"
 #include "controller/pushed_problem.hpp"
+#include "controller/traction_limited_problem.hpp"
 #include "controller/whole_body_problem.hpp"
 
 namespace ballbot {
@@ -36,6 +37,7 @@ class PlanProblem {
   WholeBodyProblem<NU> whole_body_;
   FloorLimitedProblem<NU> floor_limited_;  ///< the same on a floor that does not hold everything
   LostWheelProblem<NU> lost_wheel_;        ///< the same without a wheel, on any floor
+  TractionLimitedProblem<NU> traction_;    ///< any of them, on wheels that may slip
   DisturbedProblem<NU> disturbed_;         ///< any of them, under a force that lasts
   PushedProblem<NU> pushed_;               ///< and any of these, pushed
 };
@@ -59,6 +61,7 @@ class ContinuousPlanProblem {
   ContinuousProblem<NU> whole_body_;
   FloorLimitedContinuousProblem<NU> floor_limited_;
   LostWheelContinuousProblem<NU> lost_wheel_;
+  TractionLimitedContinuousProblem<NU> traction_;
   DisturbedContinuousProblem<NU> disturbed_;
   PushedContinuousProblem<NU> pushed_;
 };

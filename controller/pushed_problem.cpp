@@ -13,6 +13,7 @@ Push Push::on(const ReducedDynamics& dynamics, const PositionVector& q, const Ve
   Push push;
   push.acts = !force.isZero(0);
   if (push.acts) push.acceleration = dynamics.massMatrix(q).ldlt().solve(force);
+  push.force = force.head<2>();
   push.lasts = lasts;
   return push;
 }

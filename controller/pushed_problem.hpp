@@ -11,6 +11,7 @@ namespace ballbot {
 struct Push {
   bool acts = false;
   VelocityVector acceleration = VelocityVector::Zero();  ///< of nu, at the plan's start
+  Eigen::Vector2d force = Eigen::Vector2d::Zero();       ///< its horizontal part in W [N]
   double lasts = 1;                                      ///< time constant of its fading [s]
 
   /// @param q      where the plan begins

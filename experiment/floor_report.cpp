@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "experiment/axes_builder.hpp"
+#include "model/state.hpp"
 
 namespace ballbot {
 namespace {
@@ -14,6 +17,27 @@ bool has(const LogTable* table, const std::string& column) {
 }
 
 }  // namespace
+
+std::optional<PlotGroup> wheelGroup(const std::vector<LogTable>& tables) {
+  if (!has(findTable(tables, "truth"), "wheel_1_normal_force")) return std::nullopt;
+  AxesBuilder normal(tables, "normal force", "N");
+  AxesBuilder traction(tables, "size of the traction", "N");
+  AxesBuilder slip(tables, "slip", "m/s");
+  for (int i = 0; i < kWheelCount; ++i) {
+    const std::string wheel = fmt::format("wheel_{}_", i + 1);
+    const std::string name = fmt::format("wheel {}", i + 1);
+    normal.line("truth", wheel + "normal_force", name, SeriesStyle::kMeasured, i);
+    traction.size("truth", wheel + "traction", name, SeriesStyle::kMeasured, i);
+    slip.line("truth", wheel + "slip", name, SeriesStyle::kMeasured, i);
+  }
+  return PlotGroup{
+      "Wheels on the ball",
+      "True forces of the ball on each wheel, and its rim's velocity against the ball. "
+      "Friction holds a wheel as long as its traction is below the coefficient times "
+      "its normal force.",
+      {normal.axes(), traction.axes(), slip.axes()},
+      {}};
+}
 
 std::optional<PlotGroup> floorGroup(const std::vector<LogTable>& tables) {
   const bool truth = has(findTable(tables, "truth"), "ball_spin_rate");

@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "cosim/lifecycle.hpp"
 #include "experiment/plant_factory.hpp"
-#include "plant/floor_truth.hpp"
+#include "plant/added_truth.hpp"
 
 namespace ballbot {
 namespace {
@@ -75,8 +75,9 @@ void PlantLink::start() {
   remote.first_patience =
       child_ ? std::max(options_.patience, std::chrono::milliseconds(30'000)) : options_.patience;
   remote.added[AddedTo::kSensors] = config_.plant.plant.added_sensors.signals();
-  if (!config_.plant.coupling || config_.plant.coupling->has_floor_truth) {
-    remote.added[AddedTo::kTruth] = FloorTruth(config_.plant.plant).signals();
+  const AddedSignals truth = AddedTruth(config_.plant.plant).signals();
+  if (!config_.plant.coupling || config_.plant.coupling->feeds(truth)) {
+    remote.added[AddedTo::kTruth] = truth;
   }
   remote.stop = options_.stop;
   remote.say = options_.say;

@@ -1,6 +1,10 @@
 #include "experiment/run_metrics.hpp"
 
-#include "plant/floor_truth.hpp"
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "plant/added_truth.hpp"
 
 namespace ballbot {
 namespace {
@@ -16,8 +20,10 @@ std::vector<PushMetrics::Interval> pushIntervals(const RunConfig& config) {
 
 ContactMetrics contactMetrics(const RunConfig& config) {
   const auto& door = config.plant.plant.surroundings.door;
-  if (!door) return ContactMetrics(config.robot);
-  return ContactMetrics(config.robot, door->opening_limit);
+  // As it is, not as it is believed to be.
+  const RobotParameters& robot = config.plant.plant.robot;
+  if (!door) return ContactMetrics(robot);
+  return ContactMetrics(robot, door->opening_limit);
 }
 
 RobotLimits limitsOf(const RunConfig& config) {
@@ -48,7 +54,9 @@ RunMetrics::RunMetrics(const RunConfig& config)
       steps_(reference_->eeSteps(), config.scenario.release, kSimStart + config.scenario.duration),
       contact_(contactMetrics(config)),
       estimation_(config.scenario.release),
-      spin_(config.scenario.release) {}
+      spin_(config.scenario.release),
+      wheels_(config.scenario.release, config.plant.plant.wheel_contact.friction),
+      places_(AddedTruth::placesOf(AddedTruth(config.plant.plant).signals())) {}
 
 void RunMetrics::add(const Tick& tick) {
   if (!tick.truth) return;
@@ -61,14 +69,30 @@ void RunMetrics::add(const Tick& tick) {
   tracking_.add(truth, place);
   steps_.add(truth, reference_->eePose(truth.time));
   contact_.add(truth, control.plan.contact_asked_W, control.estimate.contact_force_W);
-  if (const AddedSignals* floor = tick.added[AddedTo::kTruth];
-      floor != nullptr && !floor->empty()) {
-    const std::vector<double>& v = floor->values;
-    spin_.add(truth.time, v[FloorTruth::kSpinRate], v[FloorTruth::kTorque], v[FloorTruth::kHeld]);
+  if (const AddedSignals* added = tick.added[AddedTo::kTruth];
+      added != nullptr && !added->empty()) {
+    addBesideTruth(truth.time, *added);
   }
   if (!control.has_estimate) return;
   estimation_.add(truth, control.estimate.state);
   if (control.has_self_assessment) estimation_.addConsistency(control.self_assessment);
+}
+
+void RunMetrics::addBesideTruth(SimTime now, const AddedSignals& added) {
+  std::array<double, AddedTruth::kPlaces> v;
+  v.fill(std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < places_.size(); ++i) v[places_[i]] = added.values[i];
+  if (!std::isnan(v[AddedTruth::kSpinRate])) {
+    spin_.add(now, v[AddedTruth::kSpinRate], v[AddedTruth::kSpinTorque],
+              v[AddedTruth::kSpinTorqueHeld]);
+  }
+  const auto ofWheels = [&](AddedTruth::Place first) -> Vector3 {
+    return Eigen::Map<const Vector3>(&v[first]);
+  };
+  if (!std::isnan(v[AddedTruth::kNormalForce])) {
+    wheels_.add(now, ofWheels(AddedTruth::kNormalForce), ofWheels(AddedTruth::kTraction),
+                ofWheels(AddedTruth::kSlip));
+  }
 }
 
 std::map<std::string, double> RunMetrics::values() const {
@@ -80,6 +104,7 @@ std::map<std::string, double> RunMetrics::values() const {
   all.merge(contact_.values());
   all.merge(estimation_.values());
   all.merge(spin_.values());
+  all.merge(wheels_.values());
   return all;
 }
 
@@ -88,7 +113,7 @@ std::vector<std::string> RunMetrics::names() {
   for (const auto& names :
        {BalanceMetrics::names(), PushMetrics::names(), EeStepMetrics::names(),
         ContactMetrics::names(), TrackingMetrics::names(), LimitMargins::names(),
-        EstimationErrors::names(), SpinMetrics::names()}) {
+        EstimationErrors::names(), SpinMetrics::names(), WheelMetrics::names()}) {
     all.insert(all.end(), names.begin(), names.end());
   }
   return all;

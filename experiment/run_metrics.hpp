@@ -15,6 +15,7 @@
 #include "metrics/push_metrics.hpp"
 #include "metrics/spin_metrics.hpp"
 #include "metrics/tracking_metrics.hpp"
+#include "metrics/wheel_metrics.hpp"
 
 namespace ballbot {
 
@@ -48,6 +49,10 @@ class RunMetrics {
   ContactMetrics contact_;
   EstimationErrors estimation_;
   SpinMetrics spin_;
+  WheelMetrics wheels_;
+
+  void addBesideTruth(SimTime now, const AddedSignals& added);
+  std::vector<std::size_t> places_;  ///< of what the truth has beside its frame
 };
 
 }  // namespace ballbot

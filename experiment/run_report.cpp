@@ -258,6 +258,7 @@ void writeRunReport(const RunConfig& config, const RunResult& result, const RunF
   data.groups = {ballGroup(tables, *reference), baseGroup(tables), handGroup(log, *reference),
                  torqueGroup(tables, robot), armGroup(tables)};
   if (auto floor = floorGroup(tables)) data.groups.push_back(std::move(*floor));
+  if (auto wheels = wheelGroup(tables)) data.groups.push_back(std::move(*wheels));
   if (auto plans = planGroup(tables)) data.groups.push_back(std::move(*plans));
   if (auto added = addedSensorGroup(log, tables)) data.groups.push_back(std::move(*added));
   const SurroundingsParameters& surroundings = config.plant.plant.surroundings;

@@ -9,7 +9,7 @@
 #include "core/state_visitors.hpp"
 #include "fmi/native_plant_model.hpp"
 #include "model/signal_table.hpp"
-#include "plant/floor_truth.hpp"
+#include "plant/added_truth.hpp"
 
 namespace ballbot {
 namespace {
@@ -36,7 +36,10 @@ CoupledPlant::CoupledPlant(CouplingPlan plan, const PlantConfig& plant, const st
   }
   for (std::size_t i = 0; i < models_.size(); ++i) outputs_[i] = models_[i]->outputs();
   before_ = outputs_;
-  if (plan_.has_floor_truth) floor_truth_ = FloorTruth(plant).signals();
+  const AddedSignals truth = AddedTruth(plant).signals();
+  if (!plan_.feeds(truth)) return;
+  added_truth_ = truth;
+  added_truth_places_ = AddedTruth::placesOf(truth);
 }
 
 void CoupledPlant::enterInitializationMode(SimTime start) {
@@ -94,8 +97,10 @@ void CoupledPlant::observe() {
   plan_.graph.gather(record_, outputs_, before_, inputs_[record_]);
   writeSignals(truthSignals(), inputs_[record_].data(), truth_);
   truth_.time = now_;
-  std::copy_n(inputs_[record_].begin() + static_cast<std::ptrdiff_t>(rowSize(truthSignals())),
-              floor_truth_.values.size(), floor_truth_.values.begin());
+  const double* added = inputs_[record_].data() + rowSize(truthSignals());
+  for (std::size_t i = 0; i < added_truth_places_.size(); ++i) {
+    added_truth_.values[i] = added[added_truth_places_[i]];
+  }
 }
 
 void CoupledPlant::terminate() {
@@ -111,7 +116,7 @@ std::optional<TruthFrame> CoupledPlant::truth() const {
 }
 
 const AddedSignals& CoupledPlant::added(AddedTo frame) const {
-  if (frame == AddedTo::kTruth) return floor_truth_;
+  if (frame == AddedTo::kTruth) return added_truth_;
   return native_ == nullptr ? AddedSignals::none() : native_->added(frame);
 }
 

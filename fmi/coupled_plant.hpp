@@ -53,7 +53,8 @@ class CoupledPlant final : public Participant {
   /// One per node of the graph but controller and record, which come last and have none.
   std::vector<std::unique_ptr<SteppedModel>> models_;
   const NativePlantModel* native_ = nullptr;  ///< of the models, where it is one
-  AddedSignals floor_truth_;
+  AddedSignals added_truth_;
+  std::vector<std::size_t> added_truth_places_;  ///< behind the frame's own values
   Rows inputs_, outputs_;
   Rows before_;  ///< outputs one communication step ago, for delayed connections
   SimTime now_{};

@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "fmi/fmu_ports.hpp"
 #include "model/signal_table.hpp"
-#include "plant/floor_truth.hpp"
+#include "plant/added_truth.hpp"
 
 namespace ballbot {
 namespace {
@@ -114,7 +114,7 @@ CouplingNode controllerNode() {
 CouplingNode recordNode() {
   CouplingNode node{kRecordName, {}, {}};
   addPorts(node.inputs, "truth.", truthSignals());
-  addPorts(node.inputs, "truth.", FloorTruth::list());
+  addPorts(node.inputs, "truth.", AddedTruth::list());
   return node;
 }
 
@@ -124,7 +124,7 @@ CouplingNode nativePlantNode() {
   addPorts(node.inputs, "force.", externalForceSignals());
   addPorts(node.outputs, "sensors.", sensorSignals());
   addPorts(node.outputs, "truth.", truthSignals());
-  addPorts(node.outputs, "truth.", FloorTruth::list());
+  addPorts(node.outputs, "truth.", AddedTruth::list());
   return node;
 }
 

@@ -9,7 +9,7 @@
 #include "fmi/fmu_ports.hpp"
 #include "fmi/plant_contents.hpp"
 #include "model/signal_table.hpp"
-#include "plant/floor_truth.hpp"
+#include "plant/added_truth.hpp"
 
 namespace ballbot {
 namespace {
@@ -113,6 +113,12 @@ void requireWholeInputs(const CouplingGraph& graph) {
 
 }  // namespace
 
+bool CouplingPlan::feeds(const AddedSignals& truth) const {
+  const std::vector<std::size_t> places = AddedTruth::placesOf(truth);
+  return std::all_of(places.begin(), places.end(),
+                     [&](std::size_t place) { return added_truth[place]; });
+}
+
 CouplingPlan planCoupling(const ConfigNode& scenario) {
   std::vector<UsedFmu> fmus;
   std::vector<CouplingLine> lines;
@@ -127,7 +133,7 @@ CouplingPlan planCoupling(const ConfigNode& scenario) {
   addLines(lines, commandSignals(), "controller.command.", "plant.command.", plant_fmu);
   addLines(lines, sensorSignals(), "plant.sensors.", "controller.sensors.", plant_fmu);
   addLines(lines, truthSignals(), "plant.truth.", "record.truth.", plant_fmu);
-  addLines(lines, FloorTruth::list(), "plant.truth.", "record.truth.", plant_fmu);
+  addLines(lines, AddedTruth::list(), "plant.truth.", "record.truth.", plant_fmu);
 
   std::vector<CouplingNode> nodes;
   std::vector<FmuUse> uses;
@@ -148,8 +154,7 @@ CouplingPlan planCoupling(const ConfigNode& scenario) {
   }
   nodes.push_back(controllerNode());
   nodes.push_back(recordNode());
-  CouplingPlan plan{CouplingGraph(std::move(nodes), lines), std::move(uses), !plant_fmu, true,
-                    true};
+  CouplingPlan plan{CouplingGraph(std::move(nodes), lines), std::move(uses), !plant_fmu, true, {}};
   if (plant_fmu) {
     requireSensors(plan.graph, plant_fmu->entry.where);
     requireSamePlant(scenario, plant_fmu->entry, plant_fmu->description);
@@ -157,8 +162,12 @@ CouplingPlan planCoupling(const ConfigNode& scenario) {
   requireWholeInputs(plan.graph);
   const std::size_t record = plan.graph.find(kRecordName);
   for (const CouplingPort& input : plan.graph.nodes()[record].inputs) {
-    bool& has = input.offset < rowSize(truthSignals()) ? plan.has_truth : plan.has_floor_truth;
-    has = has && plan.graph.fed(record, input);
+    const bool fed = plan.graph.fed(record, input);
+    if (input.offset < rowSize(truthSignals())) {
+      plan.has_truth = plan.has_truth && fed;
+    } else {
+      plan.added_truth.push_back(fed);
+    }
   }
   return plan;
 }

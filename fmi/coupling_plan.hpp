@@ -4,6 +4,7 @@
 
 #include "fmi/coupling_graph.hpp"
 #include "fmi/fmu_process.hpp"
+#include "model/added_signals.hpp"
 
 namespace ballbot {
 
@@ -11,10 +12,13 @@ namespace ballbot {
 /// any of them runs.
 struct CouplingPlan {
   CouplingGraph graph;
-  std::vector<FmuUse> fmus;      ///< of the graph's nodes of the same names
-  bool native_plant = true;      ///< no FMU stands in the plant's place
-  bool has_truth = false;        ///< the true state can go on record
-  bool has_floor_truth = false;  ///< and what holds the ball's spin (plant/floor_truth.hpp)
+  std::vector<FmuUse> fmus;       ///< of the graph's nodes of the same names
+  bool native_plant = true;       ///< no FMU stands in the plant's place
+  bool has_truth = false;         ///< the true state can go on record
+  std::vector<bool> added_truth;  ///< and which of AddedTruth::list()
+
+  /// Whether all of these can.
+  bool feeds(const AddedSignals& truth) const;
 };
 
 /// Completes the connections by names: what the plant's FMU calls like the signals of the messages

@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "model/signal_table.hpp"
-#include "plant/floor_truth.hpp"
+#include "plant/added_truth.hpp"
 
 namespace ballbot {
 
 NativePlantModel::NativePlantModel(const PlantConfig& config)
     : plant_(config),
-      outputs_(rowSize(sensorSignals()) + rowSize(truthSignals()) + FloorTruth::list().size(),
-               0.0) {
+      outputs_(rowSize(sensorSignals()) + rowSize(truthSignals()) + AddedTruth::list().size(), 0.0),
+      added_truth_places_(AddedTruth::placesOf(plant_.added(AddedTo::kTruth))) {
   observe();
 }
 
@@ -38,8 +38,10 @@ void NativePlantModel::observe() {
   readSignals(sensorSignals(), plant_.sensors(), outputs_.data());
   double* truth = outputs_.data() + rowSize(sensorSignals());
   readSignals(truthSignals(), plant_.truth(), truth);
-  const std::vector<double>& floor = plant_.added(AddedTo::kTruth).values;
-  std::copy(floor.begin(), floor.end(), truth + rowSize(truthSignals()));
+  const std::vector<double>& added = plant_.added(AddedTo::kTruth).values;
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    truth[rowSize(truthSignals()) + added_truth_places_[i]] = added[i];
+  }
 }
 
 }  // namespace ballbot

@@ -33,6 +33,7 @@ class NativePlantModel final : public SteppedModel {
 
   Plant plant_;
   std::vector<double> outputs_;
+  std::vector<std::size_t> added_truth_places_;
 };
 
 }  // namespace ballbot

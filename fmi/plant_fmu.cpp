@@ -14,6 +14,7 @@
 #include "fmi/plant_parameters.hpp"
 #include "fmi/step_time.hpp"
 #include "model/signal_table.hpp"
+#include "plant/added_truth.hpp"
 #include "plant/plant.hpp"
 
 namespace ballbot {
@@ -212,9 +213,14 @@ std::unique_ptr<Plant> PlantFmu::makePlant(const std::vector<double>& values) co
   return std::make_unique<Plant>(readPlantConfig(effectiveScenario(values)));
 }
 
+void PlantFmu::take(std::unique_ptr<Plant> plant) {
+  plant_ = std::move(plant);
+  truth_places_ = AddedTruth::placesOf(plant_->added(AddedTo::kTruth));
+}
+
 Plant& PlantFmu::plant() {
   if (!plant_) {
-    plant_ = makePlant(values_);
+    take(makePlant(values_));
     plant_->reset(start_);
   }
   return *plant_;
@@ -226,9 +232,10 @@ void PlantFmu::refresh() {
   const std::vector<double>& sensors = plant().added(AddedTo::kSensors).values;
   std::copy(sensors.begin(), sensors.end(), values_.begin() + g.added_sensors);
   readSignals(truthSignals(), plant().truth(), &values_[g.truth]);
-  const std::vector<double>& floor = plant().added(AddedTo::kTruth).values;
-  std::copy(floor.begin(), floor.end(),
-            values_.begin() + g.floor_truth);  // 0 of one that holds all
+  const AddedSignals& added = plant().added(AddedTo::kTruth);  // others stay 0
+  for (std::size_t i = 0; i < added.values.size(); ++i) {
+    values_[g.added_truth + truth_places_[i]] = added.values[i];
+  }
   stale_ = false;
 }
 
@@ -313,7 +320,7 @@ void PlantFmu::restoreState(const StateBlob& blob) {
     Plant& target = fits ? *plant_ : *fresh;
     target.setExternalForces(frameOf(externalForceSignals(), s.held.data()));
     target.restoreState(s.plant);
-    if (fresh) plant_ = std::move(fresh);
+    if (fresh) take(std::move(fresh));
   } else {
     plant_.reset();
   }

@@ -67,6 +67,7 @@ class PlantFmu {
   ConfigNode effectiveScenario(const std::vector<double>& values) const;
   std::unique_ptr<Plant> makePlant(const std::vector<double>& values) const;
   Plant& plant();
+  void take(std::unique_ptr<Plant> plant);
   void refresh();
   bool isParameter(ValueReference reference) const {
     return reference >= variables_.groups().parameters;
@@ -81,6 +82,7 @@ class PlantFmu {
   std::vector<double> values_;  ///< of all elements; those of the plant as of the last refresh()
   std::vector<double> held_;    ///< external forces during the last step
   std::unique_ptr<Plant> plant_;
+  std::vector<std::size_t> truth_places_;  ///< of its added truth behind the group's start
   bool stale_ = true;         ///< values_ of outputs and locals are older than the plant
   bool digest_stale_ = true;  ///< the same for the digest, which costs more
 };

@@ -5,7 +5,7 @@
 #include "fmi/units.hpp"
 #include "model/signal_table.hpp"
 #include "plant/added_sensors.hpp"
-#include "plant/floor_truth.hpp"
+#include "plant/added_truth.hpp"
 
 namespace ballbot {
 namespace {
@@ -55,8 +55,8 @@ FmuVariables::FmuVariables(const ConfigNode& scenario) {
   }
   groups_.truth = static_cast<ValueReference>(owner_.size());
   for (const auto& s : truthSignals()) add(variableOf("truth.", s, VariableRole::kLocal));
-  groups_.floor_truth = static_cast<ValueReference>(owner_.size());
-  for (const AddedSignal& s : FloorTruth::list())
+  groups_.added_truth = static_cast<ValueReference>(owner_.size());
+  for (const AddedSignal& s : AddedTruth::list())
     add(variableOf("truth.", s, VariableRole::kLocal));
 
   FmuVariable digest;

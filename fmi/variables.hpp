@@ -46,7 +46,7 @@ class FmuVariables {
   }
   /// First element of each group of variables, in which the rows follow one another.
   struct Groups {
-    ValueReference time, command, forces, sensors, added_sensors, truth, floor_truth, digest,
+    ValueReference time, command, forces, sensors, added_sensors, truth, added_truth, digest,
         parameters;
   };
   const Groups& groups() const { return groups_; }

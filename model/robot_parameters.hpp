@@ -48,6 +48,8 @@ struct RobotParameters {
     double transverse_inertia = 0;              ///< about any axis across the axle [kg m^2]
     double contact_zenith = 0;                  ///< angle of the contact from the ball's top [rad]
     std::array<double, kWheelCount> azimuth{};  ///< [rad]
+    /// Largest force along the direction of driving per normal force; kUnlimited: nobody said.
+    double friction = kUnlimited;
   } wheels;
 
   BodyInertia base;  ///< without wheels, origin at K

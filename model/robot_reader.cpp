@@ -42,6 +42,7 @@ struct RobotFile {
   double gravity = 9.81, total_mass = 0, payload_mass = 0;
   double wheel_radius = 0, contact_zenith = 0;
   std::array<double, kWheelCount> azimuth{};
+  double wheel_friction = kUnlimited;
   std::array<double, kArmJointCount> nominal_arm{};
   double wheel_torque_limit = 0, arm_torque_limit = 0;
 
@@ -56,6 +57,10 @@ struct RobotFile {
                     contact_zenith, {1, 89}, kRadPerDeg);
       wheels.vector(must("azimuth_deg", "of each wheel about the vertical, from ahead"), azimuth,
                     {-360, 360}, kRadPerDeg);
+      wheels.number(may("friction",
+                        "largest force along a wheel's direction of driving per normal force; "
+                        "without it wheels are taken to hold whatever they are asked for"),
+                    wheel_friction, {kTiny, kUnlimited});
     });
     v.number(must("total_mass_kg", "of all links, a check on the URDF"), total_mass, {kTiny, kInf});
     v.number(may("payload_mass_kg", "point mass at the end-effector"), payload_mass, {0, 100});
@@ -108,6 +113,7 @@ RobotParameters readRobot(ConfigReader& in) {
   robot.wheels.radius = file.wheel_radius;
   robot.wheels.contact_zenith = file.contact_zenith;
   robot.wheels.azimuth = file.azimuth;
+  robot.wheels.friction = file.wheel_friction;
   checkApart(robot.wheels.azimuth, in.child("wheels").at("azimuth_deg"));
   checkWheelPlacement(urdf, file.links, robot, in.at("wheels"));
 

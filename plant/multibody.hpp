@@ -7,6 +7,7 @@
 #include "model/robot_parameters.hpp"
 #include "model/state.hpp"
 #include "plant/floor_contact.hpp"
+#include "plant/wheel_traction.hpp"
 
 namespace ballbot {
 
@@ -29,6 +30,10 @@ struct MultibodyOptions {
   /// six degrees of freedom. Needs error-controlled integration.
   std::optional<FloorContactParameters> floor;
   double spin_smoothing = 0.02;  ///< of such a floor [rad/s]
+  /// The wheels slip where their normal force holds them no longer, and creep where it does.
+  std::optional<WheelContactParameters> wheel_slip;
+  double slip_fade_s = 1e-3;    ///< within which such a wheel, or one with a fault, grips again
+  bool wheel_contacts = false;  ///< wheelContacts() is asked for
 };
 
 /// Bodies an external force can act on.
@@ -131,8 +136,11 @@ class Multibody {
   virtual BaseAcceleration baseAcceleration(const double* ydot) const = 0;
   virtual JointAcceleration jointAcceleration(const double* ydot) const = 0;
 
-  /// The torque with which each wheel can turn against the ball until it slips on it; infinite, as
-  /// it is at first, never slips. Only a structure whose wheels are bodies can slip.
+  /// The wheels' contacts as derivative() found them last, where options asked for them.
+  virtual WheelContacts wheelContacts() const { return {}; }
+
+  /// The torque with which each wheel can turn against the ball until it slips on it, whatever its
+  /// normal force; infinite at first. Only a structure whose wheels are bodies can slip.
   /// @throw InputError if a finite limit is asked of one that cannot.
   virtual void limitTraction(const Vector3& wheel_torque) = 0;
 

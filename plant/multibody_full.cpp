@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "plant/multibody_structures.hpp"
 #include "plant/robot_tree.hpp"
@@ -57,6 +56,18 @@ class FullMultibody final : public Multibody {
     for (SimTK::Vector& column : response_) column.resize(nu_);
     wheel_q_ = tree_.sharedQ();
     wheel_u_ = tree_.sharedU();
+    Matrix3 normals;
+    for (int i = 0; i < kWheelCount; ++i) {
+      normals.col(i) = robot.wheelCentre(i).normalized();
+      tangents_.col(i) = normals.col(i).cross(robot.wheelAxle(i));
+    }
+    along_normals_ = normals.inverse();
+    traction_.fade_s = options.slip_fade_s;
+    if (options.wheel_slip) {
+      const double r_w = robot.wheels.radius;
+      traction_.friction_lever = options.wheel_slip->friction * r_w;
+      traction_.creep = options.wheel_slip->creep / (r_w * r_w);
+    }
   }
 
   int stateDim() const override { return nq_ + nu_; }
@@ -105,6 +116,9 @@ class FullMultibody final : public Multibody {
     tree_.system.realize(tree_.state, SimTK::Stage::Dynamics);
     tree_.matter.calcAccelerationIgnoringConstraints(tree_.state, tree_.mobilityForces(),
                                                      tree_.bodyForces(), udot_, body_acceleration_);
+    if (contactsMatter()) {
+      carried_ = tree_.carriedLoad(loads, body_acceleration_);
+    }
     addRollingConstraint();
     const SimTK::Vector& qdot = tree_.state.getQDot();
     std::copy_n(&qdot[0], nq_, ydot);
@@ -142,11 +156,13 @@ class FullMultibody final : public Multibody {
         rolling_.rates(tree_.rotationFromQ(y), {u[0], u[1], 0},
                        Eigen::Map<const Vector3>(u + kOmegaU), options_.ball_spin ? u[kSpinU] : 0);
     for (int i = 0; i < kWheelCount; ++i) {
-      if (grips(i)) u[wheel_u_ + i] = rates[i];
+      if (rolls(i)) u[wheel_u_ + i] = rates[i];
     }
   }
 
-  void limitTraction(const Vector3& wheel_torque) override { traction_ = wheel_torque; }
+  void limitTraction(const Vector3& wheel_torque) override { traction_.limit = wheel_torque; }
+
+  WheelContacts wheelContacts() const override { return contacts_; }
 
   Vector3 wheelSlip() const override {
     const BaseMotion& m = tree_.base();
@@ -216,15 +232,26 @@ class FullMultibody final : public Multibody {
     }
     const Vector3 bias = rolling_.bias(tree_.base());
     SmallVector<kWheelCount> multipliers;
-    if (grips(0) && grips(1) && grips(2)) {
-      for (int i = 0; i < kWheelCount; ++i) multipliers[i] = bias[i] - rowTimes(i, udot);
-      solveCholesky<kWheelCount>(A, multipliers, kWheelCount);
-    } else {
+    for (int i = 0; i < kWheelCount; ++i) multipliers[i] = bias[i] - rowTimes(i, udot);
+    const bool all_roll = rolls(0) && rolls(1) && rolls(2);
+    if (!all_roll || contactsMatter()) {
       const double* u = &tree_.state.getU()[0];
       for (int i = 0; i < kWheelCount; ++i) {
-        multipliers[i] = grips(i) ? bias[i] - rowTimes(i, udot) : creepTorque(i, rowTimes(i, u));
+        for (int j = 0; j <= i; ++j) traction_.A(i, j) = traction_.A(j, i) = A[i][j];
+        traction_.wanted[i] = multipliers[i];
+        traction_.slip[i] = rowTimes(i, u);
       }
-      solveForGripping(A, multipliers);
+      if (contactsMatter()) findNormalForces(response);
+    }
+    if (all_roll) {
+      solveCholesky<kWheelCount>(A, multipliers, kWheelCount);
+    } else {
+      Eigen::Map<Vector3>(multipliers.data()) = solveTraction(traction_);
+    }
+    if (contactsMatter()) {
+      const Vector3 torque = Eigen::Map<const Vector3>(multipliers.data());
+      contacts_ = {traction_.normalForce(torque), torque / robot_.wheels.radius,
+                   traction_.slip * robot_.wheels.radius};
     }
     for (int k = 0; k < nu_; ++k) {
       udot[k] += response[0][k] * multipliers[0] + response[1][k] * multipliers[1] +
@@ -232,35 +259,22 @@ class FullMultibody final : public Multibody {
     }
   }
 
-  bool grips(int wheel) const { return !std::isfinite(traction_[wheel]); }
+  bool rolls(int wheel) const { return !traction_.canSlip(wheel); }
 
-  /// Friction of a slipping wheel, on its own axis [N m]: at its limit but for a creep about zero
-  /// slip, wide enough for the integration step whatever the limit [rad/s].
-  double creepTorque(int wheel, double slip_rate) const {
-    return -traction_[wheel] * std::tanh(slip_rate / (0.5 + traction_[wheel]));
-  }
+  bool contactsMatter() const { return options_.wheel_contacts || options_.wheel_slip; }
 
-  /// Multipliers of the wheels that grip, from A and their right-hand sides in `multipliers`, where
-  /// those of the others stand already.
-  void solveForGripping(const SmallMatrix<kWheelCount>& A,
-                        SmallVector<kWheelCount>& multipliers) const {
-    SmallMatrix<kWheelCount> A_grip{};
-    SmallVector<kWheelCount> m{};
-    std::array<int, kWheelCount> gripping{};
-    int n = 0;
-    for (int i = 0; i < kWheelCount; ++i) {
-      if (!grips(i)) continue;
-      m[n] = multipliers[i];
-      for (int j = 0; j < kWheelCount; ++j) {
-        if (!grips(j)) m[n] -= A[std::max(i, j)][std::min(i, j)] * multipliers[j];
-      }
-      gripping[n++] = i;
-    }
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j <= i; ++j) A_grip[i][j] = A[gripping[i]][gripping[j]];
-    }
-    solveCholesky<kWheelCount>(A_grip, m, n);
-    for (int i = 0; i < n; ++i) multipliers[gripping[i]] = m[i];
+  /// What the ball carries is borne by its wheels alone: along normals c_i and driven tangents
+  /// t_i = c_i x d_i, across which the rollers roll freely.
+  ///
+  ///   sum of N_i c_i + lambda_i / r_w t_i = load at lambda = 0 + (its change) lambda
+  ///
+  /// @param response  velocities' change per torque of each contact
+  void findNormalForces(const std::array<const double*, kWheelCount>& response) {
+    Matrix3 change;
+    for (int i = 0; i < kWheelCount; ++i) change.col(i) = tree_.carriedMomentum(response[i]);
+    const Matrix3 R_BW = tree_.base().R_WB.transpose();
+    traction_.N_free = along_normals_ * (R_BW * carried_);
+    traction_.N_torque = along_normals_ * (R_BW * change - tangents_ / robot_.wheels.radius);
   }
 
   RobotParameters robot_;
@@ -268,7 +282,11 @@ class FullMultibody final : public Multibody {
   RobotTree tree_;
   WheelRolling rolling_;
   int nq_ = 0, nu_ = 0, wheel_q_ = 0, wheel_u_ = 0;
-  Vector3 traction_ = Vector3::Constant(std::numeric_limits<double>::infinity());  ///< [N m]
+  Matrix3 tangents_;       ///< columns t_i in B
+  Matrix3 along_normals_;  ///< components of a force in B along the three c_i
+  TractionProblem traction_;
+  WheelContacts contacts_;
+  Vector3 carried_ = Vector3::Zero();  ///< by the ball, were the wheels free of it [N]
   SimTK::Vector udot_, constraint_force_;
   std::array<SimTK::Vector, kWheelCount> response_;
   SimTK::Vector_<SimTK::SpatialVec> body_acceleration_;

@@ -11,9 +11,10 @@
 #include "core/state_visitors.hpp"
 #include "model/frames.hpp"
 #include "model/signal_check.hpp"
+#include "plant/added_truth.hpp"
 #include "plant/drive_bank.hpp"
-#include "plant/floor_truth.hpp"
 #include "plant/plant_dynamics.hpp"
+#include "plant/plant_state_form.hpp"
 
 namespace ballbot {
 namespace {
@@ -21,38 +22,9 @@ namespace {
 constexpr const char* kBlobKind = "plant";
 constexpr std::uint32_t kBlobVersion = 1;
 
-const char* nameOf(ContactLevel contact) {
-  switch (contact) {
-    case ContactLevel::kRolling:
-      return "rolling";
-    case ContactLevel::kRollingWithSpinFriction:
-      return "rolling_with_spin_friction";
-    case ContactLevel::kCompliant:
-      break;
-  }
-  return "compliant";
-}
-
 std::unique_ptr<Integrator> makeIntegrator(const PlantConfig& c, int dim) {
   if (c.fidelity.contact != ContactLevel::kCompliant) return std::make_unique<RungeKutta4>(dim);
   return std::make_unique<ErrorControlledStep>(dim, c.integration_tolerance);
-}
-
-/// What decides which numbers a saved state holds, in words.
-std::string stateForm(const PlantConfig& c) {
-  const PlantFidelity& f = c.fidelity;
-  return fmt::format(
-      "multibody {}, actuators {}, contact {}, drive period {}, delay of {} ticks, IMU period "
-      "{}{}{}{}{}",
-      f.multibody == MultibodyStructure::kFull ? "full" : "reduced_wheels",
-      f.actuators == ActuatorLevel::kIdeal ? "ideal" : "series_elastic", nameOf(f.contact),
-      toText(c.drive_period), f.transport_delay ? c.transport_delay_ticks : 0,
-      toText(c.sensors.imu.period), c.surroundings.door ? ", a door" : "",
-      c.surroundings.wall ? ", a wall" : "",
-      c.wheel_loop.delay_ticks > 0
-          ? fmt::format(", a wheel loop delayed by {} ticks", c.wheel_loop.delay_ticks)
-          : "",
-      c.added_sensors.sensors.empty() ? "" : ", added sensors " + c.added_sensors.names());
 }
 
 void requireFinite(const ActuatorCommand& command, SimTime t) {
@@ -67,7 +39,7 @@ class Plant::Impl {
  public:
   explicit Impl(const PlantConfig& config)
       : config_(config),
-        form_(stateForm(config)),
+        form_(plantStateForm(config)),
         ideal_actuators_(config.fidelity.actuators == ActuatorLevel::kIdeal),
         environment_(config.pushes),
         motion_capture_(config.motion_capture, config.seed),
@@ -76,7 +48,7 @@ class Plant::Impl {
         integrator_(makeIntegrator(config, dynamics_.dim())),
         state_(config, dynamics_.dim()),
         added_sensors_(config.added_sensors, config.seed),
-        floor_truth_(config) {
+        added_truth_(config) {
     reset(kSimStart);
   }
 
@@ -163,7 +135,7 @@ class Plant::Impl {
       case AddedTo::kSensors:
         return added_sensors_.signals();
       case AddedTo::kTruth:
-        return floor_truth_.signals();
+        return added_truth_.signals();
       default:
         return AddedSignals::none();
     }
@@ -180,7 +152,8 @@ class Plant::Impl {
 
     SimTime start{}, now{}, last_tick{};
     std::vector<double> y;
-    double yaw = 0;  ///< continuous [rad]
+    double yaw = 0;          ///< continuous [rad]
+    WheelContacts contacts;  ///< as the last step found them
     DriveBank drives;
     Imu imu;
   };
@@ -197,6 +170,7 @@ class Plant::Impl {
     visit(s.last_tick);
     visit(s.y);
     visit(s.yaw);
+    if (config_.knowsWheels()) visit(s.contacts);
     visit(actuators);
     visit(s.drives);
     visit(s.imu);
@@ -245,6 +219,7 @@ class Plant::Impl {
     const SimTime next = nextEvent(end);
     integrator_->step(dynamics_, toSeconds(s.now - s.last_tick), toSeconds(next - s.now),
                       s.y.data());
+    s.contacts = held ? WheelContacts{} : dynamics_.multibody().wheelContacts();
     if (!held) dynamics_.project(s.y.data());
     for (const double value : s.y) {
       if (!std::isfinite(value)) {
@@ -352,7 +327,9 @@ class Plant::Impl {
     f.door_angle = door.angle;
     f.door_rate = door.rate;
     f.external_force_W = environment_.totalForce(state_.now) + external_.sum();
-    if (!floor_truth_.signals().empty()) floor_truth_.observe(dynamics_.ballOnFloor());
+    if (!added_truth_.signals().empty()) {
+      added_truth_.observe(dynamics_.ballOnFloor(), state_.contacts);
+    }
   }
 
   PlantConfig config_;
@@ -368,7 +345,7 @@ class Plant::Impl {
   SensorFrame sensors_;
   TruthFrame truth_;
   AddedSensorBank added_sensors_;
-  FloorTruth floor_truth_;
+  AddedTruth added_truth_;
   mutable StateHasher hasher_;
 };
 

@@ -26,6 +26,9 @@ void describePlantSection(ConfigVisitor& v, PlantConfig& c, FaultKeys fault_keys
                         c.integration_tolerance, {1e-12, 1e-2});
               c.floor.describe(in);
             });
+  v.section(
+      may("wheel_contact", "friction of the wheels on the ball, where fidelity.wheels is slipping"),
+      [&](ConfigVisitor& in) { c.wheel_contact.describe(in); });
   v.section(may("wheel_loop_insertion",
                 "gain and delay put into the loop at the wheel torques, to find out what it takes"),
             [&](ConfigVisitor& in) { c.wheel_loop.describe(in); });
@@ -53,7 +56,20 @@ void describeEnvironmentSection(ConfigVisitor& v, PlantConfig& c) {
            c.robot.payload_mass, {0, 100});
 }
 
+/// Of what needs contacts of wheels on the ball that can be told apart.
+void requireWheelContacts(const PlantConfig& c, const std::string& at, const char* what) {
+  if (c.fidelity.multibody != MultibodyStructure::kFull) {
+    throw InputError(fmt::format(
+        "{} {}, for which wheels must be bodies: set fidelity.multibody to full", at, what));
+  }
+  if (c.fidelity.contact == ContactLevel::kCompliant) {
+    throw InputError(
+        fmt::format("{} {}, which there is not with fidelity.contact: compliant", at, what));
+  }
+}
+
 void readPlantSection(ConfigReader in, PlantConfig& c) {
+  if (c.robot.wheels.friction < kUnlimited) c.wheel_contact.friction = c.robot.wheels.friction;
   ConfigReading reading(in);
   describePlantSection(reading, c, FaultKeys::kOfItsKind);
   c.robot.base.p_LLcm_L += c.base_com_offset;
@@ -64,19 +80,14 @@ void readPlantSection(ConfigReader in, PlantConfig& c) {
                     "fidelity.multibody to full",
                     in.child("fidelity").at("contact")));
   }
+  if (c.fidelity.wheels_slip)
+    requireWheelContacts(c, in.child("fidelity").at("wheels"), "is slipping");
+  if (c.wheel_contact.recorded) {
+    requireWheelContacts(c, in.child("wheel_contact").at("recorded"), "is true");
+  }
   for (const Fault& fault : c.faults) {
-    if (fault.kind != Fault::Kind::kWheelSlip) continue;
-    if (c.fidelity.multibody != MultibodyStructure::kFull) {
-      throw InputError(
-          fmt::format("{} hold a wheel_slip, for which wheels must be bodies: set "
-                      "fidelity.multibody to full",
-                      in.at("faults")));
-    }
-    if (c.fidelity.contact == ContactLevel::kCompliant) {
-      throw InputError(
-          fmt::format("{} hold a wheel_slip, which there is not with fidelity.contact: "
-                      "compliant",
-                      in.at("faults")));
+    if (fault.kind == Fault::Kind::kWheelSlip) {
+      requireWheelContacts(c, in.at("faults"), "hold a wheel_slip");
     }
   }
   in.finish();
@@ -107,6 +118,8 @@ void PlantFidelity::describe(ConfigVisitor& v) {
            {{"rolling", ContactLevel::kRolling},
             {"rolling_with_spin_friction", ContactLevel::kRollingWithSpinFriction},
             {"compliant", ContactLevel::kCompliant}});
+  v.choice(may("wheels", "whether the wheels can slip on the ball for want of normal force"),
+           wheels_slip, {{"rolling", false}, {"slipping", true}});
   v.choice(may("sensors", "exact values, or noise, bias and quantisation"), noisy_sensors,
            {{"perfect", false}, {"noisy", true}});
   v.boolean(may("encoder_quantisation", "whole encoder counts; with noisy sensors"),

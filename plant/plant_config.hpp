@@ -30,6 +30,7 @@ struct PlantFidelity {
   MultibodyStructure multibody = MultibodyStructure::kFull;
   ActuatorLevel actuators = ActuatorLevel::kSeriesElastic;
   ContactLevel contact = ContactLevel::kRolling;
+  bool wheels_slip = false;  ///< on the ball, where their normal force holds them no longer
   bool noisy_sensors = true;
   bool encoder_quantisation = true;  ///< takes effect with noisy sensors
   bool friction = true;              ///< takes effect with series elastic actuators
@@ -66,7 +67,8 @@ struct PlantConfig {
   SensorParameters sensors;
   PlantFidelity fidelity;
   SpinFriction spin_friction;
-  FloorContactParameters floor;               ///< of a compliant contact
+  FloorContactParameters floor;  ///< of a compliant contact
+  WheelContactParameters wheel_contact;
   double integration_tolerance = 1e-6;        ///< of a compliant contact, per step
   SimDuration substep{400'000};               ///< longest integration step
   SimDuration drive_period{400'000};          ///< of the drives' torque loops
@@ -82,6 +84,9 @@ struct PlantConfig {
   std::optional<MotionCaptureParameters> motion_capture;
   AddedSensorList added_sensors;
   std::uint64_t seed = 1;
+
+  /// Whether the truth knows how the wheels stand on the ball.
+  bool knowsWheels() const { return fidelity.wheels_slip || wheel_contact.recorded; }
 };
 
 /// Reads the sections robot, plant, initial and environment and the seed of a scenario. Other

@@ -17,6 +17,10 @@ MultibodyOptions multibodyOptions(const PlantConfig& config) {
     o.floor = config.floor;
     o.spin_smoothing = config.spin_friction.smoothing;
   }
+  if (config.fidelity.wheels_slip) o.wheel_slip = config.wheel_contact;
+  // Long enough for the integration, whatever its step.
+  o.slip_fade_s = 2.5 * toSeconds(std::min(config.substep, config.drive_period));
+  o.wheel_contacts = config.knowsWheels();
   for (int i = 0; i < kJointCount; ++i) {
     o.rotor_inertia[i] = config.actuators.of(i).motor_inertia;
     o.gear_ratio[i] = config.actuators.of(i).gear_ratio;

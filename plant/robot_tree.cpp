@@ -119,6 +119,7 @@ RobotTree::RobotTree(const RobotParameters& robot, const BodyInertia& base,
   weight_[kBaseBody] = {whole_base.mass, whole_base.p_LLcm_L};
   for (int j = 0; j < kArmJointCount; ++j) {
     const BodyInertia& link = robot.arm[j].inertia;
+    arm_axis_[j] = robot.arm[j].axis;
     weight_[kLink1Body + j] = {link.mass, link.p_LLcm_L};
   }
   const BodyInertia last = robot.lastLinkWithPayload();
@@ -223,6 +224,37 @@ Matrix3 RobotTree::rotationFromQ(const double* q) const {
 void RobotTree::normalizeQuaternion(double* q) const {
   Eigen::Map<Eigen::Vector4d> quat(q + kQuaternionQ);
   quat /= quat.norm();
+}
+
+Vector3 RobotTree::carriedLoad(const MultibodyLoads& loads,
+                               const SimTK::Vector_<SimTK::SpatialVec>& body_acceleration) const {
+  const SpatialVec* acceleration = &body_acceleration[0];
+  Vector3 load = Vector3::Zero();
+  for (int b = kBaseBody; b < kBodyCount; ++b) {
+    const SpatialVec& A = acceleration[index_[b]];
+    const Vector3 arm = motion_[b].R_WL * weight_[b].p_LLcm_L;
+    const Vector3& w = motion_[b].w_WL_W;
+    load += weight_[b].mass * (toEigen(A[1]) + toEigen(A[0]).cross(arm) + w.cross(w.cross(arm)) +
+                               Vector3(0, 0, gravity_));
+  }
+  for (const PointForce& f : loads.forces) {
+    if (f.body != kBallBody) load -= f.force_W;
+  }
+  return load;
+}
+
+Vector3 RobotTree::carriedMomentum(const double* u) const {
+  Vector3 v(u[0], u[1], 0), w(u[kOmegaU], u[kOmegaU + 1], u[kOmegaU + 2]);  // of body after body
+  Vector3 momentum = Vector3::Zero();
+  for (int b = kBaseBody; b < kBodyCount; ++b) {
+    if (b > kBaseBody) {
+      const int j = b - kLink1Body;
+      v += w.cross(motion_[b].p_WL - motion_[b - 1].p_WL);
+      w += u[kArmU + j] * (motion_[b].R_WL * arm_axis_[j]);
+    }
+    momentum += weight_[b].mass * (v + w.cross(motion_[b].R_WL * weight_[b].p_LLcm_L));
+  }
+  return momentum;
 }
 
 double RobotTree::potentialEnergy() const {

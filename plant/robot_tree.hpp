@@ -62,6 +62,14 @@ class RobotTree {
   Matrix3 rotationFromQ(const double* q) const;
   void normalizeQuaternion(double* q) const;
 
+  /// What the ball carries, as a force on it, in W: what stands on it at the accelerations that
+  /// Simbody gave for its bodies, less the loads that act there [N].
+  Vector3 carriedLoad(const MultibodyLoads& loads,
+                      const SimTK::Vector_<SimTK::SpatialVec>& body_acceleration) const;
+  /// Momentum of all but the ball at shared velocities u; of accelerations, its rate but for what
+  /// is quadratic in velocities [N s].
+  Vector3 carriedMomentum(const double* u) const;
+
   double kineticEnergy() const { return matter.calcKineticEnergy(state); }
   double potentialEnergy() const;
 
@@ -86,7 +94,8 @@ class RobotTree {
     double mass = 0;
     Vector3 p_LLcm_L = Vector3::Zero();
   };
-  std::array<Weight, kBodyCount> weight_;  ///< wheels and rotors with their carrier
+  std::array<Weight, kBodyCount> weight_;         ///< wheels and rotors with their carrier
+  std::array<Vector3, kArmJointCount> arm_axis_;  ///< in the link's own axes
   std::array<BodyMotion, kBodyCount> motion_;
   BaseMotion base_motion_;
   SimTK::Vector mobility_forces_;

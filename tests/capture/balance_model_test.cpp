@@ -50,6 +50,30 @@ TEST(BalanceModel, AForceOnTheBaseIsAForceAndAMomentOnTheHand) {
   }
 }
 
+// Of what stands on the ball the momentum along the floor changes by what the wheels and the push
+// bring, torques and pushes alike.
+TEST(BalanceModel, WhatItsWheelsBearChangesTheMomentum) {
+  const RobotParameters robot = exampleRobot();
+  const BalanceModel m = exampleModel();
+  const Matrix3 R_WB = rotationFromYawPitchRoll(0, m.pitch_at_rest, m.roll_at_rest);
+  Eigen::Matrix<double, 2, kWheelCount> normals, tangents;
+  for (int i = 0; i < kWheelCount; ++i) {
+    const Vector3 c = robot.contactDirection(i);
+    normals.col(i) = (R_WB * c).head<2>();
+    tangents.col(i) = (R_WB * c.cross(robot.wheelAxle(i))).head<2>();
+  }
+  Eigen::Matrix<double, 2, BalanceModel::kStates> of_carried = m.momentum_rate;
+  of_carried.block<2, 2>(0, BalanceModel::kRates) -= robot.ball.mass * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix<double, 2, kWheelCount> by_torque =
+      normals * m.normal_force.by_torque + tangents * m.traction.by_torque;
+  EXPECT_LT((by_torque - of_carried * m.B).norm(), 1e-6 * by_torque.norm());
+  const Eigen::Matrix2d by_force =
+      normals * m.normal_force.by_force + tangents * m.traction.by_force;
+  EXPECT_LT((by_force - (of_carried * m.E - Eigen::Matrix2d::Identity())).norm(), 1e-6);
+  EXPECT_GT(m.normal_force.at_rest.minCoeff(), 95);
+  EXPECT_LT(m.traction.at_rest.cwiseAbs().maxCoeff(), 1);
+}
+
 // What the ball's rolling and the wheels' turning add to the mass matrix is no momentum.
 TEST(BalanceModel, ItsMomentumIsTheMassMatrixWithoutWhatTurns) {
   const RobotParameters robot = exampleRobot();

@@ -97,6 +97,22 @@ TEST(LargestPush, WithTorquesAloneLimitedIsWhatTheFallingModesAllow) {
   }
 }
 
+// Blind from beginning to end it stands only what changes nothing; traction counts from the first
+// step on, and what a wheel bears is what the whole model says.
+TEST(LargestPush, WithinTheWheelsFrictionIsLessTheLessThereIs) {
+  const BalanceModel model = modelPushedAt(0.35);
+  const PushTimes brief{0.3, 0, 2, 0.03};
+  double before = 0;
+  for (const double friction : {0.1, 0.3, 0.5, 0.8}) {
+    BalanceLimits limits = shippedLimits();
+    limits.wheel_friction = friction;
+    const double force = largestPush(model, limits, brief, kAlongY);
+    EXPECT_GT(force, before + 1) << friction;
+    before = force;
+  }
+  EXPECT_LE(before, largestPush(model, shippedLimits(), brief, kAlongY) + 1e-6);
+}
+
 // Which of the limits counts depends on the others: the wheels' speed is what half a second comes
 // to, friction and tilt where they are made to.
 TEST(LargestPush, GrowsWithEachLimitThatCountsAndNeverShrinks) {

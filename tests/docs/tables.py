@@ -235,7 +235,8 @@ def capture_limits(scenario):
     for name, changes in [("the shipped robot: 4 N m and 12 rad/s at a wheel", []),
                           ("a wheel's torque 6 N m", ["robot.wheel_torque_limit_Nm=6"]),
                           ("8.4 rad/s, as the MPC plans", ["robot.actuators.wheel.speed_limit_rad_per_s=8.4"]),
-                          ("drives of any speed", ["plant.fidelity.speed_limit=false"])]:
+                          ("drives of any speed", ["plant.fidelity.speed_limit=false"]),
+                          ("wheels that slip, friction 0.8", ["plant.fidelity.wheels=slipping"])]:
         run = subprocess.run(["ballbot", "capture", f"configs/scenarios/{scenario}.yaml", "--bound-only", "--quiet", "--json",
                               "--directions", "4", *[w for c in changes for w in ("--set", c)]],
                              stdout=subprocess.PIPE, text=True, check=True)

@@ -1,6 +1,6 @@
 // What the truth knows of floor and ball about the vertical, and a floor that is not everywhere the
 // same.
-#include "plant/floor_truth.hpp"
+#include "plant/added_truth.hpp"
 
 #include <cmath>
 
@@ -17,7 +17,7 @@ const char* const kFloor =
     "{center_m: [1, 0], radius_m: 0.5, torque_Nm: 0.2}, "
     "{center_m: [1.4, 0], radius_m: 0.2, torque_Nm: 1.5}]}";
 
-TEST(FloorTruth, OfWherePatchesOverlapTheLastCounts) {
+TEST(AddedTruth, OfWherePatchesOverlapTheLastCounts) {
   const SpinFriction floor = plantConfig("full", {kFloor}).spin_friction;
   EXPECT_EQ(floor.heldAt({0, 0}), 0.8);
   EXPECT_EQ(floor.heldAt({0.6, 0}), 0.2);
@@ -26,28 +26,28 @@ TEST(FloorTruth, OfWherePatchesOverlapTheLastCounts) {
   EXPECT_EQ(floor.heldAt({1.61, 0}), 0.8);
 }
 
-TEST(FloorTruth, ABallThatCannotSpinHasNone) {
+TEST(AddedTruth, ABallThatCannotSpinHasNone) {
   Plant plant(plantConfig("full", {"plant.fidelity.contact=rolling"}));
   EXPECT_TRUE(plant.added(AddedTo::kTruth).empty());
 }
 
 /// Wheels that all turn one way twist ball and base against each other.
-TEST(FloorTruth, FollowsTheSpin) {
+TEST(AddedTruth, FollowsTheSpin) {
   for (const char* contact : {"rolling_with_spin_friction", "compliant"}) {
     Plant plant(plantConfig("full", {std::string("plant.fidelity.contact=") + contact,
                                      "initial={arm_rad: [0, 0, 0]}", kFloor}));
     const AddedSignals& floor = plant.added(AddedTo::kTruth);
-    ASSERT_EQ(floor.list.size(), FloorTruth::list().size());
+    ASSERT_EQ(floor.list.size(), 3u);
     ActuatorCommand command;
     command.torque.head<kWheelCount>().setConstant(0.8);
     for (int ms = 1; ms <= 60; ++ms) {
       plant.advanceTo(kSimStart + SimDuration(ms * 1'000'000), command);
-      const double spin = floor.values[FloorTruth::kSpinRate];
-      const double held = floor.values[FloorTruth::kHeld];
-      EXPECT_NEAR(floor.values[FloorTruth::kTorque], -held * std::tanh(spin / 0.02), 1e-12);
+      const double spin = floor.values[AddedTruth::kSpinRate];
+      const double held = floor.values[AddedTruth::kSpinTorqueHeld];
+      EXPECT_NEAR(floor.values[AddedTruth::kSpinTorque], -held * std::tanh(spin / 0.02), 1e-12);
       EXPECT_NEAR(held, 0.8, 0.08) << contact;  // one that gives way carries its load
     }
-    EXPECT_GT(floor.values[FloorTruth::kSpinRate], 0.2) << contact;
+    EXPECT_GT(floor.values[AddedTruth::kSpinRate], 0.2) << contact;
   }
 }
 
