@@ -34,7 +34,6 @@ void describeBeliefs(ConfigVisitor& v, ControllerSettings& settings) {
     v.section(may(key, words), [&belief](ConfigVisitor& in) { belief.describe(in); });
   };
   section("floor", "what is believed of the floor under the ball", settings.floor);
-  section("traction", "what is made of the wheels' friction on the ball", settings.traction);
   section("wheel_loss", "when a wheel that slips, or whose drive is dead, is no longer counted on",
           settings.wheel_loss);
   section("push", "what is made of a force that acts now and that nothing explains", settings.push);

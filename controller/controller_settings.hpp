@@ -9,7 +9,6 @@
 #include "controller/offset_free.hpp"
 #include "controller/pd_tracker.hpp"
 #include "controller/push_belief.hpp"
-#include "controller/traction_limit.hpp"
 
 namespace ballbot {
 
@@ -20,7 +19,6 @@ class ConfigVisitor;
 ///
 ///     known_payload_kg: 0.5
 ///     floor: {spin_torque_Nm: 0.4}
-///     traction: {limited: true}
 ///     wheel_loss: {counted_out: true}
 ///     tracker: {...}
 ///     kind: lqr        # | mpc | decoupled, and what was added to lawKinds()
@@ -29,7 +27,6 @@ struct ControllerSettings {
   RobotParameters believed_robot;  ///< with the payload that estimator and law count on
   TrackerConfig tracker;
   FloorBelief floor;
-  TractionBelief traction;
   WheelLoss wheel_loss;
   PushBelief push;
   OffsetFree offset_free;

@@ -12,7 +12,7 @@ namespace ballbot {
 namespace {
 
 constexpr const char* kBlobKind = "controller";
-constexpr std::uint32_t kBlobVersion = 12;
+constexpr std::uint32_t kBlobVersion = 11;
 
 WheelDrives wheelDrives(const RunConfig& config) {
   const ActuatorParameters& wheel = config.plant.plant.actuators.wheel;
@@ -37,15 +37,13 @@ RobotController::RobotController(const RunConfig& config, EventCalendar& calenda
       law_(config.controller.makeLaw()),
       tracker_(std::make_unique<PdTracker>(config.controller.tracker)),
       spin_torque_(config.believedRobot()),
-      traction_(config.believedRobot(), config.controller.traction),
       command_share_(config.controller.floor.command_share),
       beside_estimate_(besideEstimate(sensing_.estimator().knowsSpin(),
                                       config.controller.offset_free.enabled,
                                       config.controller.push.counted_on)),
       state_(FloorHold(config.believedRobot(), config.controller.floor),
              LostWheels(config.controller.wheel_loss), PushEstimate(config.controller.push),
-             DeadDrives(config.controller.wheel_loss.drives, wheelDrives(config)),
-             WheelGrip(config.believedRobot())) {
+             DeadDrives(config.controller.wheel_loss.drives, wheelDrives(config))) {
   added_[AddedTo::kPlan].list = config.controller.law->addedToPlan();
   for (const BesideSignal& beside : beside_estimate_) {
     added_[AddedTo::kEstimate].list.push_back(beside.signal);
@@ -88,7 +86,7 @@ void RobotController::estimate(SimTime now, const SensorFrame& sensors, ControlO
     state_.floor.update(now, e.x, e.spin_rate, sensors.joint_torque, sensors.joint_velocity);
   }
   if (now >= release_) {
-    followWheels(now, e.x, sensors);
+    followWheels(now, sensors);
     followPush(now);
   }
   tellLaw();
@@ -97,21 +95,12 @@ void RobotController::estimate(SimTime now, const SensorFrame& sensors, ControlO
   for (const BesideSignal& beside : beside_estimate_) *value++ = beside.value(known, beside.index);
 }
 
-void RobotController::followWheels(SimTime now, const StateVector& x,
-                                   const SensorFrame& sensors) noexcept {
+void RobotController::followWheels(SimTime now, const SensorFrame& sensors) noexcept {
   const WheelFlags refused =
       state_.refused_wheels.since(sensing_.estimator().rejections(), sensors.joint_velocity);
-  state_.grip.update(now, sensors.joint_torque.head<kWheelCount>(),
-                     sensors.joint_velocity.head<kWheelCount>());
-  WheelFlags lost = refused;
-  if (any(refused)) {
-    const WheelFlags overloaded =
-        traction_.overloaded(x, state_.push.force(), sensors.joint_torque, state_.grip.torque());
-    for (std::size_t i = 0; i < kWheelCount; ++i) lost[i] = refused[i] && !overloaded[i];
-  }
   // A plan that counts on a wheel which is gone, or leaves out one which is back, is to be
   // replaced.
-  if (state_.wheels.update(now, lost, state_.drives.dead())) state_.plan_now = true;
+  if (state_.wheels.update(now, refused, state_.drives.dead())) state_.plan_now = true;
   state_.slipping = refused;
 }
 
@@ -191,13 +180,8 @@ void RobotController::track(SimTime now, const SensorFrame& sensors, ControlOutp
   }
   if (state_.wheels.any()) {
     withoutLost(state_.wheels.lost(), out.command);
-  } else {
-    const double floor = state_.floor.held();
-    const double held = floor < kUnlimited ? command_share_ * floor : kUnlimited;
-    if (floor < kUnlimited) spin_torque_.cut(held, x, out.command.torque);
-    if (now >= release_ && traction_.cut(x, state_.push.force(), held, out.command.torque)) {
-      ++state_.ticks_at_traction;
-    }
+  } else if (const double held = state_.floor.held(); held < kUnlimited) {
+    spin_torque_.cut(command_share_ * held, x, out.command.torque);
   }
   if (now >= release_) {
     ++state_.ticks_released;
@@ -264,7 +248,6 @@ std::map<std::string, double> RobotController::metrics() const {
   out["wheels_lost"] = number(state_.wheels.losses());
   out["drives_dead"] = number(state_.drives.deaths());
   out["ticks_saturated"] = number(state_.ticks_saturated);
-  out["ticks_at_traction"] = number(state_.ticks_at_traction);
   out["ticks_not_finite"] = number(state_.ticks_not_finite);
   if (state_.ticks_released > 0) {
     out[kFallbackPercent] = 100 * number(state_.ticks_on_fallback) / number(state_.ticks_released);

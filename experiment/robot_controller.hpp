@@ -11,8 +11,6 @@
 #include "controller/lost_wheels.hpp"
 #include "controller/pd_tracker.hpp"
 #include "controller/push_belief.hpp"
-#include "controller/traction_limit.hpp"
-#include "controller/wheel_grip.hpp"
 #include "cosim/schedule.hpp"
 #include "cosim/stepped_controller.hpp"
 #include "estimator/refused_wheels.hpp"
@@ -51,13 +49,11 @@ class RobotController final : public SteppedController {
   /// What goes on from one event to the next, but for the parts that keep their own.
   struct State {
     State(const FloorHold& floor_at_first, const LostWheels& wheels_at_first,
-          const PushEstimate& push_at_first, const DeadDrives& drives_at_first,
-          const WheelGrip& grip_at_first)
+          const PushEstimate& push_at_first, const DeadDrives& drives_at_first)
         : floor(floor_at_first),
           wheels(wheels_at_first),
           push(push_at_first),
-          drives(drives_at_first),
-          grip(grip_at_first) {}
+          drives(drives_at_first) {}
 
     PolicySample policy;
     FloorHold floor;
@@ -65,7 +61,6 @@ class RobotController final : public SteppedController {
     LostWheels wheels;
     PushEstimate push;
     DeadDrives drives;
-    WheelGrip grip;
     WheelFlags slipping{};      ///< or so the estimator says
     std::int64_t rejected = 0;  ///< by the estimator so far
     FeedforwardShare feedforward_share;
@@ -75,7 +70,7 @@ class RobotController final : public SteppedController {
     SimTime pending_since{};
     std::int64_t plans = 0, plans_refused = 0, plans_on_fallback = 0, plans_cut = 0;
     std::int64_t plans_begun_anew = 0;
-    std::int64_t ticks_saturated = 0, ticks_not_finite = 0, ticks_at_traction = 0;
+    std::int64_t ticks_saturated = 0, ticks_not_finite = 0;
     std::int64_t ticks_released = 0, ticks_on_fallback = 0;  ///< the second is part of the first
 
     template <typename Self, typename Visitor>
@@ -92,7 +87,6 @@ class RobotController final : public SteppedController {
       visit(self.plans_begun_anew);
       visit(self.ticks_saturated);
       visit(self.ticks_not_finite);
-      visit(self.ticks_at_traction);
       visit(self.ticks_released);
       visit(self.ticks_on_fallback);
       visit(self.feedforward_share);
@@ -101,7 +95,6 @@ class RobotController final : public SteppedController {
       visit(self.wheels);
       visit(self.push);
       visit(self.drives);
-      visit(self.grip);
       visit(self.slipping);
       visit(self.rejected);
     }
@@ -109,7 +102,7 @@ class RobotController final : public SteppedController {
   /// What is saved.
   struct Whole;
   void restore(const StateBlob& blob, bool with_law);
-  void followWheels(SimTime now, const StateVector& x, const SensorFrame& sensors) noexcept;
+  void followWheels(SimTime now, const SensorFrame& sensors) noexcept;
   void followPush(SimTime now) noexcept;
   /// What is known, to the law.
   void tellLaw() noexcept;
@@ -123,7 +116,6 @@ class RobotController final : public SteppedController {
   std::unique_ptr<ControlLaw> law_;
   std::unique_ptr<PdTracker> tracker_;
   SpinTorque spin_torque_;
-  TractionLimit traction_;
   double command_share_;  ///< of what the floor is counted on to hold
   std::vector<BesideSignal> beside_estimate_;
   TaskId tracker_task_, estimator_task_, planner_task_;

@@ -57,10 +57,11 @@ struct RobotFile {
                     contact_zenith, {1, 89}, kRadPerDeg);
       wheels.vector(must("azimuth_deg", "of each wheel about the vertical, from ahead"), azimuth,
                     {-360, 360}, kRadPerDeg);
-      wheels.number(may("friction",
-                        "largest force along a wheel's direction of driving per normal force; "
-                        "without it wheels are taken to hold whatever they are asked for"),
-                    wheel_friction, {kTiny, kUnlimited});
+      wheels.number(
+          may("friction",
+              "largest force along a wheel's direction of driving per normal force; "
+              "without it, and from 1e6 on, wheels are taken to hold whatever they are asked for"),
+          wheel_friction, {kTiny, kUnlimited});
     });
     v.number(must("total_mass_kg", "of all links, a check on the URDF"), total_mass, {kTiny, kInf});
     v.number(may("payload_mass_kg", "point mass at the end-effector"), payload_mass, {0, 100});

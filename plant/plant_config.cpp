@@ -64,7 +64,9 @@ void requireWheelContacts(const PlantConfig& c, const std::string& at, const cha
   }
   if (c.fidelity.contact == ContactLevel::kCompliant) {
     throw InputError(
-        fmt::format("{} {}, which there is not with fidelity.contact: compliant", at, what));
+        fmt::format("{} {}, which there is not with fidelity.contact: compliant; set that to "
+                    "rolling_with_spin_friction",
+                    at, what));
   }
 }
 

@@ -32,7 +32,7 @@ std::string plantStateForm(const PlantConfig& c) {
       c.wheel_loop.delay_ticks > 0
           ? fmt::format(", a wheel loop delayed by {} ticks", c.wheel_loop.delay_ticks)
           : "",
-      c.knowsWheels() ? ", contacts of wheels" : "",
+      c.knowsWheels() ? ", contacts of wheels (fidelity.wheels, wheel_contact.recorded)" : "",
       c.added_sensors.sensors.empty() ? "" : ", added sensors " + c.added_sensors.names());
 }
 

@@ -13,7 +13,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-enum class Hold { kSticks, kSlidesUp, kSlidesDown, kLifted };
+/// A wheel sticks, carries nothing, or slides: at the torque that friction gives it, or at that of
+/// a fault where this is less.
+struct Hold {
+  enum Kind { kSticks, kSlides, kSlidesAtLimit, kLifted } kind = kSticks;
+  double sign = 0;  ///< of the torque of a wheel that slides
+};
 using Holds = std::array<Hold, kWheelCount>;
 
 /// Most that a wheel can carry at the normal force `N` [N m].
@@ -26,7 +31,8 @@ Vector3 solveAs(const Holds& holds, const TractionProblem& p) {
   Matrix3 M;
   Vector3 rhs;
   for (int i = 0; i < kWheelCount; ++i) {
-    if (holds[i] == Hold::kSticks) {
+    const Hold& hold = holds[static_cast<std::size_t>(i)];
+    if (hold.kind == Hold::kSticks) {
       M.row(i) = p.A.row(i);
       rhs[i] = p.wanted[i];
       if (p.canSlip(i)) {
@@ -36,42 +42,50 @@ Vector3 solveAs(const Holds& holds, const TractionProblem& p) {
       continue;
     }
     M.row(i) = Vector3::Unit(i).transpose();
-    rhs[i] = 0;
-    if (holds[i] == Hold::kLifted) continue;
-    const double sign = holds[i] == Hold::kSlidesUp ? 1 : -1;
-    if (p.friction_lever < kInfinity) {
-      M.row(i) -= sign * p.friction_lever * p.N_torque.row(i);
-      rhs[i] = sign * p.friction_lever * p.N_free[i];
-    } else {
-      rhs[i] = sign * p.limit[i];
+    rhs[i] = hold.kind == Hold::kSlidesAtLimit ? hold.sign * p.limit[i] : 0;
+    if (hold.kind == Hold::kSlides) {
+      M.row(i) -= hold.sign * p.friction_lever * p.N_torque.row(i);
+      rhs[i] = hold.sign * p.friction_lever * p.N_free[i];
     }
   }
   return M.partialPivLu().solve(rhs);
 }
 
-/// Of a wheel that contradicts `holds`: what it does instead, and how far it is from what it does.
+/// Of a wheel that contradicts what it is taken to do: what it does instead, and by how much.
 struct Correction {
   int wheel = -1;
   double size = 0;
-  Hold hold = Hold::kSticks;
+  Hold hold;
 };
 
 Correction worst(const Holds& holds, const TractionProblem& p, const Vector3& lambda) {
   const Vector3 N = p.normalForce(lambda);
   Correction out;
-  const auto consider = [&out](int wheel, double size, Hold hold) {
-    if (size > out.size) out = {wheel, size, hold};
-  };
   for (int i = 0; i < kWheelCount; ++i) {
     if (!p.canSlip(i)) continue;
-    const double weight = p.friction_lever < kInfinity ? p.friction_lever * N[i] : 0;
-    if (holds[i] == Hold::kSticks) {
-      consider(i, std::abs(lambda[i]) - carried(p, i, N[i]),
-               lambda[i] > 0 ? Hold::kSlidesUp : Hold::kSlidesDown);
-    } else if (holds[i] == Hold::kLifted) {
-      consider(i, weight, Hold::kSticks);
-    } else {
-      consider(i, -weight, Hold::kLifted);
+    const auto consider = [&](double size, Hold hold) {
+      if (size > out.size) out = {i, size, hold};
+    };
+    const Hold& now = holds[static_cast<std::size_t>(i)];
+    const bool frictional = p.friction_lever < kInfinity;
+    const double weight = frictional ? p.friction_lever * N[i] : kInfinity;
+    switch (now.kind) {
+      case Hold::kSticks: {
+        const bool at_limit = p.limit[i] < weight;
+        consider(std::abs(lambda[i]) - carried(p, i, N[i]),
+                 {at_limit ? Hold::kSlidesAtLimit : Hold::kSlides, lambda[i] > 0 ? 1.0 : -1.0});
+        break;
+      }
+      case Hold::kSlides:
+        consider(-weight, {Hold::kLifted, 0});
+        consider(weight - p.limit[i], {Hold::kSlidesAtLimit, now.sign});
+        break;
+      case Hold::kSlidesAtLimit:
+        if (frictional) consider(p.limit[i] - weight, {Hold::kSlides, now.sign});
+        break;
+      case Hold::kLifted:
+        consider(weight, {});
+        break;
     }
   }
   return out;
@@ -83,9 +97,9 @@ void WheelContactParameters::describe(ConfigVisitor& v) {
   v.number(may("friction",
                "largest force along a wheel's direction of driving per normal force; without it "
                "robot.wheels.friction"),
-           friction, {0, 10});
+           friction, {1e-3, 10});
   v.number(may("creep_m_per_s_per_N", "slip velocity of a wheel per such force, below the largest"),
-           creep, {0, 1e-2});
+           creep, {0, 1e-3});
   v.boolean(may("recorded", "normal force and traction go on record where wheels roll, too"),
             recorded);
 }
@@ -104,9 +118,12 @@ Vector3 solveTraction(const TractionProblem& p) {
     holds[static_cast<std::size_t>(next.wheel)] = next.hold;
     lambda = solveAs(holds, p);
   }
-  // A fault's limit on top of friction; rare, and then what the others carry is not asked again.
+  // Where no answer was found in so many, none carries more than it can.
+  const Vector3 N = p.normalForce(lambda);
   for (int i = 0; i < kWheelCount; ++i) {
-    lambda[i] = std::clamp(lambda[i], -p.limit[i], p.limit[i]);
+    if (!p.canSlip(i)) continue;
+    const double most = carried(p, i, N[i]);
+    lambda[i] = std::clamp(lambda[i], -most, most);
   }
   return lambda;
 }

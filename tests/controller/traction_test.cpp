@@ -1,16 +1,12 @@
-// What friction between wheels and ball allows: the margin that plans keep, the last word on what
-// is commanded, and which slips are no wonder.
+// What friction between wheels and ball allows: the margin that plans keep.
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "controller/traction_limit.hpp"
 #include "controller/traction_margin.hpp"
-#include "controller/wheel_grip.hpp"
-#include "model/frames.hpp"
+#include "model/wheel_loads.hpp"
 #include "tests/model/robot_fixture.hpp"
 
 namespace ballbot {
@@ -124,94 +120,6 @@ TEST(TractionMargin, IsNoneWhereNobodySaysWhatFrictionThereIs) {
   EXPECT_FALSE(TractionMargin(robot, constraints).isLimited());
   robot.wheels.friction = kUnlimited;
   EXPECT_FALSE(TractionMargin(robot, Constraints(robot)).isLimited());
-  EXPECT_FALSE(TractionLimit(robot, TractionBelief{}).acts());
-}
-
-const VelocityVector kNoPush = VelocityVector::Zero();
-
-TEST(TractionLimit, LeavesAloneWhatFrictionHolds) {
-  const Standing at;
-  const TractionLimit limit(at.robot, TractionBelief{});
-  JointVector tau = at.rest.tau;
-  tau.head<3>() += Vector3(1.5, -1, -0.5);
-  const JointVector wanted = tau;
-  EXPECT_FALSE(limit.cut(at.rest.x, kNoPush, 1, tau));
-  EXPECT_EQ(tau, wanted);
-}
-
-/// Of 200 random demands: how many were cut, and how much of the ball's drive along the floor was
-/// lost, in the mean.
-struct Cuts {
-  int count = 0;
-  double lost_Nm = 0;
-};
-
-Cuts cutsOn(double floor) {
-  const Standing at;
-  const TractionBelief belief;
-  const TractionLimit limit(at.robot, belief);
-  const WheelLoadModel loads(at.robot);
-  const OmniwheelKinematics kinematics(at.robot);
-  Cuts cuts;
-  for (int k = 0; k < 200; ++k) {
-    const RandomCase c = randomCase(k);
-    const StateVector x = at.rest.x + 0.08 * c.x;
-    JointVector tau = at.rest.tau;
-    tau.head<3>() += 0.4 * c.tau.head<3>();
-    const Vector3 wanted = tau.head<3>();
-    if (!limit.cut(x, kNoPush, floor, tau)) continue;
-    ++cuts.count;
-    const WheelLoads now =
-        loads.at(x, accelerationOf(at.dynamics, x, tau), tau.head<3>(), Vector3::Zero());
-    for (int i = 0; i < kWheelCount; ++i) {
-      const double held = at.robot.wheels.friction * std::max(now.normal[i], belief.least_normal);
-      EXPECT_LT(std::abs(now.traction[i]), held) << k;  // the share is met about, in two passes
-    }
-    const Matrix3 R = rotationFromYawPitchRoll(x[kYaw], x[kPitch], x[kRoll]);
-    cuts.lost_Nm += (R * kinematics.ballTorque(wanted - tau.head<3>())).head<2>().norm();
-  }
-  cuts.lost_Nm /= cuts.count;
-  return cuts;
-}
-
-TEST(TractionLimit, KeepsEachWheelWithinItsFriction) {
-  const Cuts cuts = cutsOn(5);
-  EXPECT_GT(cuts.count, 50);
-  EXPECT_LT(cuts.count, 190);
-}
-
-TEST(TractionLimit, MakesUpForOneWheelByTurningAsFarAsTheFloorHoldsIt) {
-  const double none = cutsOn(0).lost_Nm, little = cutsOn(0.6).lost_Nm, much = cutsOn(5).lost_Nm;
-  EXPECT_LT(little, none);
-  EXPECT_LT(much, little);
-}
-
-TEST(TractionLimit, ASlipIsNoWonderWhereLittleIsBorneOrFrictionGivesWhatItCan) {
-  const Standing at;
-  const TractionLimit limit(at.robot, TractionBelief{});
-  const JointVector tau = at.rest.tau;
-  EXPECT_EQ(limit.overloaded(at.rest.x, kNoPush, tau, {0.2, -4, 4.5}),
-            (WheelFlags{false, true, true}));
-  VelocityVector push = kNoPush;  // and what meets it unloads the third
-  push.segment<2>(kBallVx) << 45, 45;
-  push.segment<2>(kOmegaX) << -15.8, 15.8;
-  JointVector met = tau;
-  met.head<3>() << 2.64, -3.42, 0.25;
-  EXPECT_EQ(limit.overloaded(at.rest.x, push, met, Vector3::Zero()),
-            (WheelFlags{false, false, true}));
-}
-
-TEST(WheelGrip, IsTheTorqueLessWhatSpeedsTheWheelUp) {
-  const RobotParameters robot = exampleRobot();
-  WheelGrip grip(robot);
-  for (int k = 0; k < 40; ++k) {
-    const double t = 2.5e-3 * k;
-    grip.update(kSimStart + SimDuration(k * 2'500'000) + SimDuration(1),
-                {2, 2 + robot.wheels.spin_inertia * 500, 1}, {3, 500 * t, 0});
-  }
-  EXPECT_NEAR(grip.torque()[0], 2, 1e-3);
-  EXPECT_NEAR(grip.torque()[1], 2, 0.1) << "as late as the window, but for the frames' steps";
-  EXPECT_NEAR(grip.torque()[2], 1, 1e-3);
 }
 
 }  // namespace
