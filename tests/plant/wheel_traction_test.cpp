@@ -64,6 +64,27 @@ TEST(WheelTraction, EachWheelSticksSlidesOrLifts) {
   EXPECT_GT(lifted, 20);
 }
 
+/// Whatever a fault leaves it, none carries more than it can, and those that roll do.
+TEST(WheelTraction, AFaultTakesFromOneAndTheOthersAreSolvedWithIt) {
+  int at_fault = 0;
+  for (int index = 0; index < 500; ++index) {
+    TractionProblem p = randomProblem(index);
+    p.limit[1] = 0.2;
+    const Vector3 lambda = solveTraction(p);
+    const Vector3 N = p.normalForce(lambda), d_slip = p.A * lambda - p.wanted;
+    for (int i = 0; i < 3; ++i) {
+      const double held = std::min(p.limit[i], p.friction_lever * std::max(N[i], 0.0));
+      EXPECT_LE(std::abs(lambda[i]), held + 1e-9) << index;
+      const double fading = -(p.slip[i] + p.creep * lambda[i]) / p.fade_s;
+      if (std::abs(lambda[i]) < held - 1e-9) {
+        EXPECT_NEAR(d_slip[i], fading, 1e-6) << index;
+      }
+    }
+    if (std::abs(std::abs(lambda[1]) - 0.2) < 1e-12) ++at_fault;
+  }
+  EXPECT_GT(at_fault, 300);
+}
+
 /// Momentum of all that stands on the ball, in W.
 Vector3 momentum(const RobotParameters& robot, const Multibody& multibody) {
   Vector3 sum = Vector3::Zero();
