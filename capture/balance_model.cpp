@@ -80,7 +80,7 @@ Eigen::Matrix<double, N, N> exponential(const Eigen::Matrix<double, N, N>& X) {
 
 }  // namespace
 
-BalanceModel BalanceModel::of(const RobotParameters& robot, const Vector3& arm,
+BalanceModel BalanceModel::of(const RobotParameters& robot, const ArmVector& arm,
                               const Vector3& p_BP_B) {
   const ReducedDynamics dynamics(withRigidArm(robot, arm));
   const Equilibrium rest = findEquilibrium(dynamics, arm);

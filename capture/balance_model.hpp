@@ -44,7 +44,7 @@ struct BalanceModel {
   /// @param arm      angles at which the arm is held [rad]
   /// @param p_BP_B   where f acts, from the base's origin (the ball's centre) [m]
   /// @throw NumericalError if the robot cannot stand like that.
-  static BalanceModel of(const RobotParameters& robot, const Vector3& arm, const Vector3& p_BP_B);
+  static BalanceModel of(const RobotParameters& robot, const ArmVector& arm, const Vector3& p_BP_B);
 };
 
 /// The same over a time in which u and f stay what they are: s' = A s + B u + E f, exactly.

@@ -24,32 +24,32 @@ void ArmInverseKinematicsConfig::describe(ConfigVisitor& v) {
       rate_limit, {kTiny, 100});
 }
 
-Vector3 ArmInverseKinematics::rates(const StateVector& x, const Tasks& tasks) const noexcept {
+ArmVector ArmInverseKinematics::rates(const StateVector& x, const Tasks& tasks) const noexcept {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   Vector6 weight;
   // The orientation's cost is of sin(angle/2): w sin^2 = w/4 angle^2.
   weight << tasks.ee_position_weight, 0.25 * tasks.ee_orientation_weight;
-  Vector3 wanted;
+  ArmVector wanted;
   if (weight.isZero(0)) {
-    wanted = config_.gain * (tasks.arm_position - x.segment<3>(kArm1));
+    wanted = config_.gain * (tasks.arm_position - x.segment<kArmJointCount>(kArm1));
   } else {
     const ReducedDynamics::EndEffector ee = dynamics_.endEffector(x);
-    const Eigen::Matrix<double, 6, 3> J =
-        dynamics_.endEffectorJacobian(x.head<kPositionDim>()).rightCols<3>();
+    const Eigen::Matrix<double, 6, kArmJointCount> J =
+        dynamics_.endEffectorJacobian(x.head<kPositionDim>()).rightCols<kArmJointCount>();
     Vector6 twist;
     twist << tasks.v_WE_W + config_.gain * (tasks.p_WE - ee.p_WE),
         tasks.w_WE_W + 2 * config_.gain * orientationError(tasks.R_WE, ee.R_WE).e;
-    const Eigen::Matrix<double, 3, 6> JtW = J.transpose() * weight.asDiagonal();
-    Matrix3 H = JtW * J;
-    H.diagonal().array() += config_.damping * H.trace() / 3;
+    const Eigen::Matrix<double, kArmJointCount, 6> JtW = J.transpose() * weight.asDiagonal();
+    Eigen::Matrix<double, kArmJointCount, kArmJointCount> H = JtW * J;
+    H.diagonal().array() += config_.damping * H.trace() / kArmJointCount;
     wanted = H.llt().solve(JtW * twist);
   }
   const double fastest = wanted.cwiseAbs().maxCoeff();
-  return fastest > config_.rate_limit ? Vector3(config_.rate_limit / fastest * wanted) : wanted;
+  return fastest > config_.rate_limit ? ArmVector(config_.rate_limit / fastest * wanted) : wanted;
 }
 
-Vector3 ArmInverseKinematics::withinLimits(const Vector3& arm) const noexcept {
-  Vector3 out;
+ArmVector ArmInverseKinematics::withinLimits(const ArmVector& arm) const noexcept {
+  ArmVector out;
   for (int i = 0; i < kArmJointCount; ++i) {
     const ArmLink& link = dynamics_.robot().arm[i];
     out[i] = std::clamp(arm[i], link.lower_limit, link.upper_limit);

@@ -34,10 +34,10 @@ class ArmInverseKinematics {
       : dynamics_(robot), config_(config) {}
 
   /// @param x  base and ball as estimated, the arm where its set-point is
-  Vector3 rates(const StateVector& x, const Tasks& tasks) const noexcept;
+  ArmVector rates(const StateVector& x, const Tasks& tasks) const noexcept;
 
   /// `arm` inside the joints' limits.
-  Vector3 withinLimits(const Vector3& arm) const noexcept;
+  ArmVector withinLimits(const ArmVector& arm) const noexcept;
 
  private:
   ReducedDynamics dynamics_;

@@ -29,16 +29,16 @@ double wish(const RelaxedBarrier& barrier, double value, double lower, double up
 
 }  // namespace
 
-Vector3 Constraints::armPositionWish(const Vector3& arm) const {
-  Vector3 out;
+ArmVector Constraints::armPositionWish(const ArmVector& arm) const {
+  ArmVector out;
   for (int i = 0; i < kArmJointCount; ++i) {
     out[i] = wish(arm_position, arm[i], arm_lower[i], arm_upper[i]);
   }
   return out;
 }
 
-Vector3 Constraints::armTorqueWish(const Vector3& tau) const {
-  Vector3 out;
+ArmVector Constraints::armTorqueWish(const ArmVector& tau) const {
+  ArmVector out;
   for (int i = 0; i < kArmJointCount; ++i) {
     const double limit = torque_limit[kWheelCount + i];
     out[i] = wish(torque, tau[i], -limit, limit);
@@ -49,8 +49,8 @@ Vector3 Constraints::armTorqueWish(const Vector3& tau) const {
 Constraints::Constraints(const RobotParameters& robot) { takeShares(robot); }
 
 void Constraints::takeShares(const RobotParameters& robot) {
-  torque_limit << Vector3::Constant(robot.wheel_torque_limit),
-      Vector3::Constant(robot.arm_torque_limit);
+  torque_limit << WheelVector::Constant(robot.wheel_torque_limit),
+      ArmVector::Constant(robot.arm_torque_limit);
   torque_limit *= torque_share;
   wheel_rate_limit = wheel_rate_share * robot.wheel_speed_limit;
   for (int i = 0; i < kArmJointCount; ++i) {

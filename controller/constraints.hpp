@@ -21,7 +21,7 @@ struct Constraints {
   RelaxedBarrier cone{0.1, 0.5};
 
   double arm_position_margin = 0.05;  ///< that plans keep from the stops, for what drives lag [rad]
-  Vector3 arm_lower = Vector3::Zero(), arm_upper = Vector3::Zero();  ///< [rad]
+  ArmVector arm_lower = ArmVector::Zero(), arm_upper = ArmVector::Zero();  ///< [rad]
   RelaxedBarrier arm_position{0.05, 0.003};
 
   double arm_rate_limit = 6;  ///< [rad/s]
@@ -52,8 +52,8 @@ struct Constraints {
   /// Slopes of the barriers at the arm's stops, and at its largest torques, where nothing is near:
   /// there a barrier is no limit but a wish for the middle, which moves a robot that stands. From
   /// `far` on each side counts as if it were that near.
-  Vector3 armPositionWish(const Vector3& arm) const;   ///< [1/rad]
-  Vector3 armTorqueWish(const Vector3& torque) const;  ///< [1/(N m)]
+  ArmVector armPositionWish(const ArmVector& arm) const;   ///< [1/rad]
+  ArmVector armTorqueWish(const ArmVector& torque) const;  ///< [1/(N m)]
 
   void describe(ConfigVisitor& v);
   /// @param held  torque that the floor holds; kUnlimited without end [N m]

@@ -49,8 +49,8 @@ MpcSolveReport ContinuousEngine<NU>::solve(SimTime now, const MpcState& x0, cons
   return report;
 }
 
-template class ContinuousEngine<6>;
-template class ContinuousEngine<9>;
-template class ContinuousEngine<12>;
+template class ContinuousEngine<kJointCount>;
+template class ContinuousEngine<kJointCount + 3>;
+template class ContinuousEngine<kJointCount + 6>;
 
 }  // namespace ballbot

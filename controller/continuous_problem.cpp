@@ -95,8 +95,8 @@ void ContinuousProblem<NU>::expandFinalCost(const X& x,
   cost_.expandFinal(x.template head<kStateDim>(), tasks_, 0, unused, value);
 }
 
-template class ContinuousProblem<6>;
-template class ContinuousProblem<9>;
-template class ContinuousProblem<12>;
+template class ContinuousProblem<kJointCount>;
+template class ContinuousProblem<kJointCount + 3>;
+template class ContinuousProblem<kJointCount + 6>;
 
 }  // namespace ballbot

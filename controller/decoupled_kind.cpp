@@ -19,7 +19,7 @@ class DecoupledSettings final : public MpcSettings {
   }
   std::unique_ptr<ControlLaw> makeLawAtRest(SimTime) const override { return makeLaw(); }
   /// Its arm minimises nothing, and integrates what no analysis of a loop knows of.
-  std::optional<QuadraticCost> costAt(SimTime, const Vector3&) const override {
+  std::optional<QuadraticCost> costAt(SimTime, const ArmVector&) const override {
     return std::nullopt;
   }
 

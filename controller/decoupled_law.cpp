@@ -16,7 +16,7 @@ MpcConfig baseOnly(MpcConfig c) {
   auto tasks = std::make_shared<TaskSchedule>(*c.schedule);
   tasks->ee_position_weight = tasks->ee_orientation_weight = TimedWeight<3>();
   tasks->ee_velocity_weight = tasks->ee_rate_weight = TimedWeight<3>();
-  tasks->arm_position_weight = tasks->arm_rate_weight = TimedWeight<3>();
+  tasks->arm_position_weight = tasks->arm_rate_weight = TimedWeight<kArmJointCount>();
   tasks->contact_force_weight = TimedWeight<3>();
   tasks->added.clear();
   c.schedule = tasks;
@@ -69,7 +69,7 @@ DecoupledLaw::DecoupledLaw(const RobotParameters& robot, const MpcConfig& mpc,
   active_ = planned_;
 }
 
-Vector3 DecoupledLaw::gravityTorque(const StateVector& x) const noexcept {
+ArmVector DecoupledLaw::gravityTorque(const StateVector& x) const noexcept {
   return dynamics_.nonlinearEffects(x.head<kPositionDim>(), VelocityVector::Zero())
       .tail<kArmJointCount>();
 }
@@ -77,16 +77,17 @@ Vector3 DecoupledLaw::gravityTorque(const StateVector& x) const noexcept {
 PlanReport DecoupledLaw::plan(SimTime now, const StateVector& x,
                               const JointVector& joint_angle) noexcept {
   StateVector without_arm = x;
-  without_arm.segment<3>(kArm1) = rest_.segment<3>(kArm1);
-  without_arm.segment<3>(kPositionDim + kArmRate1).setZero();
+  without_arm.segment<kArmJointCount>(kArm1) = rest_.segment<kArmJointCount>(kArm1);
+  without_arm.tail<kArmJointCount>().setZero();
   if (x.allFinite()) planArm(now, x);
   return base_.plan(now, without_arm, joint_angle);
 }
 
 void DecoupledLaw::planArm(SimTime now, const StateVector& x) noexcept {
-  const Vector3 arm = x.segment<3>(kArm1);
+  const ArmVector arm = x.segment<kArmJointCount>(kArm1);
   const double since = planned_.valid ? toSeconds(now - planned_.stamp) : 0;
-  const Vector3 from = planned_.valid ? Vector3(planned_.position + since * planned_.rate) : arm;
+  const ArmVector from =
+      planned_.valid ? ArmVector(planned_.position + since * planned_.rate) : arm;
   planned_.position = inverse_kinematics_.withinLimits(from);
   planned_.integral = (planned_.integral + since * pid_.integral * (planned_.position - arm))
                           .cwiseMax(-pid_.integral_limit)
@@ -102,7 +103,7 @@ void DecoupledLaw::planArm(SimTime now, const StateVector& x) noexcept {
     at_set_point.segment<2>(kBallX) = tasks.ball_position;
     at_set_point[kYaw] = tasks.yaw;
   }
-  at_set_point.segment<3>(kArm1) = planned_.position;
+  at_set_point.segment<kArmJointCount>(kArm1) = planned_.position;
   planned_.rate = inverse_kinematics_.rates(at_set_point, tasks);
   planned_.gravity = gravityTorque(at_set_point);
 }
@@ -131,15 +132,15 @@ void DecoupledLaw::activatePlan() noexcept {
 void DecoupledLaw::sample(SimTime now, PolicySample& out) const noexcept {
   base_.sample(now, out);
   constexpr int kRates = kPositionDim + kArmRate1;
-  const Vector3 position = active_.position + toSeconds(now - active_.stamp) * active_.rate;
-  out.x.segment<3>(kArm1) = position;
-  out.x.segment<3>(kRates) = active_.rate;
+  const ArmVector position = active_.position + toSeconds(now - active_.stamp) * active_.rate;
+  out.x.segment<kArmJointCount>(kArm1) = position;
+  out.x.tail<kArmJointCount>() = active_.rate;
   out.joint_position.tail<kArmJointCount>() = position;
   out.joint_velocity.tail<kArmJointCount>() = active_.rate;
   out.torque.tail<kArmJointCount>() = active_.gravity + active_.integral;
   out.feedback.bottomRows<kArmJointCount>().setZero();
-  out.feedback.middleCols<3>(kArm1).setZero();
-  out.feedback.middleCols<3>(kRates).setZero();
+  out.feedback.middleCols<kArmJointCount>(kArm1).setZero();
+  out.feedback.middleCols<kArmJointCount>(kRates).setZero();
   for (int i = 0; i < kArmJointCount; ++i) {
     out.feedback(kWheelCount + i, kArm1 + i) = -pid_.stiffness;
     out.feedback(kWheelCount + i, kRates + i) = -pid_.damping;

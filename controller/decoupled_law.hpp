@@ -54,9 +54,9 @@ class DecoupledLaw final : public ControlLaw {
   struct ArmPlan {
     bool valid = false;
     SimTime stamp{};
-    Vector3 position = Vector3::Zero(), rate = Vector3::Zero();
-    Vector3 gravity = Vector3::Zero();   ///< torque that holds the arm at rest there [N m]
-    Vector3 integral = Vector3::Zero();  ///< torque of the integral [N m]
+    ArmVector position = ArmVector::Zero(), rate = ArmVector::Zero();
+    ArmVector gravity = ArmVector::Zero();   ///< torque that holds the arm at rest there [N m]
+    ArmVector integral = ArmVector::Zero();  ///< torque of the integral [N m]
 
     template <typename Self, typename Visitor>
     static void visitState(Self& self, Visitor& visit) {
@@ -72,7 +72,7 @@ class DecoupledLaw final : public ControlLaw {
   struct State;
   void planArm(SimTime now, const StateVector& x) noexcept;
   /// Torque at the arm's joints that holds the robot still at x [N m].
-  Vector3 gravityTorque(const StateVector& x) const noexcept;
+  ArmVector gravityTorque(const StateVector& x) const noexcept;
 
   ArmInverseKinematicsConfig::Base ik_base_;
   ReducedDynamics dynamics_;

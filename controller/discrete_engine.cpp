@@ -37,8 +37,8 @@ MpcSolveReport DiscreteEngine<NU>::solve(SimTime now, const MpcState& x0, const 
   return report;
 }
 
-template class DiscreteEngine<6>;
-template class DiscreteEngine<9>;
-template class DiscreteEngine<12>;
+template class DiscreteEngine<kJointCount>;
+template class DiscreteEngine<kJointCount + 3>;
+template class DiscreteEngine<kJointCount + 6>;
 
 }  // namespace ballbot

@@ -98,11 +98,11 @@ void DisturbedContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
   }
 }
 
-template class DisturbedProblem<6>;
-template class DisturbedProblem<9>;
-template class DisturbedProblem<12>;
-template class DisturbedContinuousProblem<6>;
-template class DisturbedContinuousProblem<9>;
-template class DisturbedContinuousProblem<12>;
+template class DisturbedProblem<kJointCount>;
+template class DisturbedProblem<kJointCount + 3>;
+template class DisturbedProblem<kJointCount + 6>;
+template class DisturbedContinuousProblem<kJointCount>;
+template class DisturbedContinuousProblem<kJointCount + 3>;
+template class DisturbedContinuousProblem<kJointCount + 6>;
 
 }  // namespace ballbot

@@ -50,11 +50,11 @@ void FloorLimitedContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
                            u.template head<kWheelCount>(), 1, out);
 }
 
-template class FloorLimitedProblem<6>;
-template class FloorLimitedProblem<9>;
-template class FloorLimitedProblem<12>;
-template class FloorLimitedContinuousProblem<6>;
-template class FloorLimitedContinuousProblem<9>;
-template class FloorLimitedContinuousProblem<12>;
+template class FloorLimitedProblem<kJointCount>;
+template class FloorLimitedProblem<kJointCount + 3>;
+template class FloorLimitedProblem<kJointCount + 6>;
+template class FloorLimitedContinuousProblem<kJointCount>;
+template class FloorLimitedContinuousProblem<kJointCount + 3>;
+template class FloorLimitedContinuousProblem<kJointCount + 6>;
 
 }  // namespace ballbot

@@ -13,13 +13,13 @@ struct GovernedCommands {
   GovernedOrientation ee_orientation;
   GovernedCommand<2> ball_position;                 ///< [m]
   GovernedCommand<1> yaw;                           ///< [rad]
-  GovernedCommand<3> arm_position;                  ///< [rad]
+  GovernedCommand<kArmJointCount> arm_position;     ///< [rad]
   std::array<GovernedAdded, kMaxAddedTasks> added;  ///< in the order of the schedule's
   /// With which the arm stands still where it is: what its torques cost is counted from there
   /// [N m].
-  Vector3 arm_rest_torque = Vector3::Zero();
+  ArmVector arm_rest_torque = ArmVector::Zero();
   /// What its barriers wish there though nothing is near, and is not granted (Constraints).
-  Vector3 arm_position_wish = Vector3::Zero(), arm_torque_wish = Vector3::Zero();
+  ArmVector arm_position_wish = ArmVector::Zero(), arm_torque_wish = ArmVector::Zero();
   /// The longest force that the end-effector is asked to push with [N].
   double push = std::numeric_limits<double>::infinity();
 };

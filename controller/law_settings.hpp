@@ -45,7 +45,7 @@ class LawSettings {
   virtual Constraints limits() const { return Constraints(robot_); }
   /// What it minimises at time `at` with the arm at rest in a pose [rad]; nothing where it is no
   /// law of that kind, and its loop cannot be analysed.
-  virtual std::optional<QuadraticCost> costAt(SimTime at, const Vector3& arm) const {
+  virtual std::optional<QuadraticCost> costAt(SimTime at, const ArmVector& arm) const {
     (void)at, (void)arm;
     return std::nullopt;
   }

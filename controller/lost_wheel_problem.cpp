@@ -93,11 +93,11 @@ void LostWheelContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
   disconnect<NU>(lost_, u, out);
 }
 
-template class LostWheelProblem<6>;
-template class LostWheelProblem<9>;
-template class LostWheelProblem<12>;
-template class LostWheelContinuousProblem<6>;
-template class LostWheelContinuousProblem<9>;
-template class LostWheelContinuousProblem<12>;
+template class LostWheelProblem<kJointCount>;
+template class LostWheelProblem<kJointCount + 3>;
+template class LostWheelProblem<kJointCount + 6>;
+template class LostWheelContinuousProblem<kJointCount>;
+template class LostWheelContinuousProblem<kJointCount + 3>;
+template class LostWheelContinuousProblem<kJointCount + 6>;
 
 }  // namespace ballbot

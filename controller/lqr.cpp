@@ -41,14 +41,14 @@ void leaveYawAlone(ReducedDynamics::Linearization& model) {
 
 StateJacobian LqrWeights::stateWeight() const {
   StateVector diagonal;
-  diagonal << ball_position, ball_position, yaw, tilt, tilt, Vector3::Constant(arm_position),
-      ball_velocity, ball_velocity, Vector3::Constant(base_rate), Vector3::Constant(arm_rate);
+  diagonal << ball_position, ball_position, yaw, tilt, tilt, ArmVector::Constant(arm_position),
+      ball_velocity, ball_velocity, Vector3::Constant(base_rate), ArmVector::Constant(arm_rate);
   return diagonal.asDiagonal();
 }
 
 JointVector LqrWeights::torqueWeight() const {
   JointVector diagonal;
-  diagonal << Vector3::Constant(wheel_torque), Vector3::Constant(arm_torque);
+  diagonal << WheelVector::Constant(wheel_torque), ArmVector::Constant(arm_torque);
   return diagonal;
 }
 
@@ -70,7 +70,7 @@ void LqrWeights::describe(ConfigVisitor& v) {
            arm_torque, {kTiny, 1e6});
 }
 
-LqrSolution designLqr(const ReducedDynamics& dynamics, const Vector3& arm,
+LqrSolution designLqr(const ReducedDynamics& dynamics, const ArmVector& arm,
                       const LqrWeights& weights, const WheelFlags& lost) {
   LqrSolution out;
   out.equilibrium = findEquilibrium(dynamics, arm);

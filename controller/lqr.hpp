@@ -41,7 +41,7 @@ struct LqrSolution {
 ///              are the columns of yaw and its rate, with which two wheels cannot be charged as
 ///              well
 /// @throw NumericalError if there is no such equilibrium or no stabilising gain.
-LqrSolution designLqr(const ReducedDynamics& dynamics, const Vector3& arm,
+LqrSolution designLqr(const ReducedDynamics& dynamics, const ArmVector& arm,
                       const LqrWeights& weights, const WheelFlags& lost = {});
 
 /// The gain for a robot that faces `yaw`: the dynamics know no direction in the plane, so the

@@ -17,7 +17,7 @@ class LqrSettings final : public LawSettings {
     resting.set_point = LqrLawConfig::defaults(robot()).set_point;
     return std::make_unique<LqrLaw>(robot(), resting);
   }
-  std::optional<QuadraticCost> costAt(SimTime, const Vector3&) const override {
+  std::optional<QuadraticCost> costAt(SimTime, const ArmVector&) const override {
     QuadraticCost cost{config_.weights.stateWeight(), config_.weights.torqueWeight(), {}};
     cost.shaping.pole = cost.shaping.zero;
     return cost;

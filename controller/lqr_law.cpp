@@ -41,8 +41,8 @@ LqrLawConfig LqrLawConfig::read(ConfigReader& in, const RobotParameters& robot) 
   if (in.has("set_point")) c.set_point.requireWithinLimits(in.child("set_point"), robot);
   in.finish();
   JointVector torque_limit;
-  torque_limit << Vector3::Constant(robot.wheel_torque_limit),
-      Vector3::Constant(robot.arm_torque_limit);
+  torque_limit << WheelVector::Constant(robot.wheel_torque_limit),
+      ArmVector::Constant(robot.arm_torque_limit);
   requireStaticTorque(robot, c.set_point.arm, torque_limit, in.at("set_point"));
   return c;
 }

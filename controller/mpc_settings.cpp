@@ -48,13 +48,13 @@ std::shared_ptr<const MotionReference> MpcSettings::reference() const {
   return std::make_shared<TaskReference>(config_.schedule);
 }
 
-std::optional<QuadraticCost> MpcSettings::costAt(SimTime at, const Vector3& arm) const {
+std::optional<QuadraticCost> MpcSettings::costAt(SimTime at, const ArmVector& arm) const {
   Tasks tasks;
   config_.schedule->at(toSeconds(at), toSeconds(at), tasks);
   QuadraticCost cost;
   cost.Q = stateWeightOfTasks(robot(), config_.constraints, tasks, arm);
-  cost.R << Vector3::Constant(tasks.wheel_torque_weight),
-      Vector3::Constant(tasks.arm_torque_weight);
+  cost.R << WheelVector::Constant(tasks.wheel_torque_weight),
+      ArmVector::Constant(tasks.arm_torque_weight);
   cost.shaping = config_.shaping;
   return cost;
 }

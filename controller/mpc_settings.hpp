@@ -20,7 +20,7 @@ class MpcSettings : public LawSettings {
   std::unique_ptr<ControlLaw> makeLawAtRest(SimTime at) const override;
   std::shared_ptr<const MotionReference> reference() const override;
   Constraints limits() const override { return config_.constraints; }
-  std::optional<QuadraticCost> costAt(SimTime at, const Vector3& arm) const override;
+  std::optional<QuadraticCost> costAt(SimTime at, const ArmVector& arm) const override;
   std::vector<AddedSignal> addedToPlan() const override;
   bool shapesWheelTorques() const override { return true; }
   /// A plan must still count when the next one takes over.

@@ -8,7 +8,7 @@ namespace {
 
 JointVector wheelsAndArm(double wheels, double arm) {
   JointVector out;
-  out << Vector3::Constant(wheels), Vector3::Constant(arm);
+  out << WheelVector::Constant(wheels), ArmVector::Constant(arm);
   return out;
 }
 

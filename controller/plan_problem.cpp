@@ -102,11 +102,11 @@ typename ContinuousPlanProblem<NU>::Base& ContinuousPlanProblem<NU>::at(
                     conditions.push);
 }
 
-template class PlanProblem<6>;
-template class PlanProblem<9>;
-template class PlanProblem<12>;
-template class ContinuousPlanProblem<6>;
-template class ContinuousPlanProblem<9>;
-template class ContinuousPlanProblem<12>;
+template class PlanProblem<kJointCount>;
+template class PlanProblem<kJointCount + 3>;
+template class PlanProblem<kJointCount + 6>;
+template class ContinuousPlanProblem<kJointCount>;
+template class ContinuousPlanProblem<kJointCount + 3>;
+template class ContinuousPlanProblem<kJointCount + 6>;
 
 }  // namespace ballbot

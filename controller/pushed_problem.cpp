@@ -63,11 +63,11 @@ void PushedContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
   dx.template segment<kVelocityDim>(kPositionDim) += acceleration_;
 }
 
-template class PushedProblem<6>;
-template class PushedProblem<9>;
-template class PushedProblem<12>;
-template class PushedContinuousProblem<6>;
-template class PushedContinuousProblem<9>;
-template class PushedContinuousProblem<12>;
+template class PushedProblem<kJointCount>;
+template class PushedProblem<kJointCount + 3>;
+template class PushedProblem<kJointCount + 6>;
+template class PushedContinuousProblem<kJointCount>;
+template class PushedContinuousProblem<kJointCount + 3>;
+template class PushedContinuousProblem<kJointCount + 6>;
 
 }  // namespace ballbot

@@ -24,7 +24,7 @@ std::string asksAt(const ConfigReader& tasks, const char* task, double t) {
 void requireArm(const TaskSchedule& schedule, const Constraints& c, const RobotParameters& robot,
                 const ConfigReader& tasks) {
   for (const double t : schedule.arm_position.turningTimes()) {
-    const Vector3 arm = schedule.arm_position.value(t);
+    const ArmVector arm = schedule.arm_position.value(t);
     for (int i = 0; i < kArmJointCount; ++i) {
       const ArmLink& joint = robot.arm[i];  // a pose nearer than the plan's margin is approached
       if (arm[i] >= joint.lower_limit && arm[i] <= joint.upper_limit) continue;
@@ -59,16 +59,16 @@ void requirePush(const TaskSchedule& schedule, const Constraints& c, const Confi
 
 }  // namespace
 
-void requireStaticTorque(const RobotParameters& robot, const Vector3& arm,
+void requireStaticTorque(const RobotParameters& robot, const ArmVector& arm,
                          const JointVector& torque_limit, const std::string& where) {
   const JointVector tau = findEquilibrium(ReducedDynamics(robot), arm).tau;
   for (int j = 0; j < kJointCount; ++j) {
     if (std::abs(tau[j]) < torque_limit[j]) continue;
     throw InputError(fmt::format(
-        "{}: to stand still with the arm at ({:.4g}, {:.4g}, {:.4g}) rad {} needs {:.4g} N m, must "
-        "be "
-        "less than its torque limit of {:g} N m",
-        where, arm[0], arm[1], arm[2], jointName(robot, j), std::abs(tau[j]), torque_limit[j]));
+        "{}: to stand still with the arm at ({:.4g}) rad {} needs {:.4g} N m, must be less than "
+        "its "
+        "torque limit of {:g} N m",
+        where, fmt::join(arm, ", "), jointName(robot, j), std::abs(tau[j]), torque_limit[j]));
   }
 }
 

@@ -20,7 +20,7 @@ void requireWithinLimits(const TaskSchedule& schedule, const Constraints& constr
 /// Standing still with the arm at `arm` [rad] must take less than the limits [N m].
 /// @param where  begins the error
 /// @throw InputError, NumericalError as above
-void requireStaticTorque(const RobotParameters& robot, const Vector3& arm,
+void requireStaticTorque(const RobotParameters& robot, const ArmVector& arm,
                          const JointVector& torque_limit, const std::string& where);
 
 }  // namespace ballbot

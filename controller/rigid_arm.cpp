@@ -11,7 +11,7 @@ BodyInertia turned(const BodyInertia& body, const Matrix3& R) {
 
 }  // namespace
 
-RobotParameters withRigidArm(const RobotParameters& robot, const Vector3& arm) {
+RobotParameters withRigidArm(const RobotParameters& robot, const ArmVector& arm) {
   RobotParameters out = robot;
   out.payload_mass = 0;
   Matrix3 R_BA = Matrix3::Identity();

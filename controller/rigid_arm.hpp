@@ -11,6 +11,6 @@ namespace ballbot {
 /// The three arm joints remain as coordinates, so that everything made for the whole robot fits,
 /// but they carry nothing, and what carries nothing is rigid to the dynamics: no torque moves them,
 /// and none of theirs reaches the base.
-RobotParameters withRigidArm(const RobotParameters& robot, const Vector3& arm);
+RobotParameters withRigidArm(const RobotParameters& robot, const ArmVector& arm);
 
 }  // namespace ballbot

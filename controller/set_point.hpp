@@ -13,7 +13,7 @@ class ConfigVisitor;
 struct SetPoint {
   Eigen::Vector2d ball_position = Eigen::Vector2d::Zero();  ///< in W [m]
   double yaw = 0;                                           ///< continuous, may exceed a turn [rad]
-  Vector3 arm = Vector3::Zero();                            ///< joint angles [rad]
+  ArmVector arm = ArmVector::Zero();                        ///< joint angles [rad]
 
   void describe(ConfigVisitor& v);
   /// The arm within its joints' limits.

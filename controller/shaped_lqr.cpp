@@ -5,7 +5,7 @@
 
 namespace ballbot {
 
-ShapedLqr designShapedLqr(const ReducedDynamics& dynamics, const Vector3& arm,
+ShapedLqr designShapedLqr(const ReducedDynamics& dynamics, const ArmVector& arm,
                           const StateJacobian& Q, const JointVector& torque_weight,
                           const FrequencyShaping& shaping) {
   using Matrix = Eigen::Matrix<double, kMpcStateDim, kMpcStateDim>;
@@ -43,7 +43,7 @@ ShapedLqr designShapedLqr(const ReducedDynamics& dynamics, const Vector3& arm,
 }
 
 StateJacobian stateWeightOfTasks(const RobotParameters& robot, const Constraints& constraints,
-                                 Tasks tasks, const Vector3& arm) {
+                                 Tasks tasks, const ArmVector& arm) {
   const ReducedDynamics dynamics(robot);
   const StateVector x = findEquilibrium(dynamics, arm).x;
   const ReducedDynamics::EndEffector ee = dynamics.endEffector(x);

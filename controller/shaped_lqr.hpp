@@ -23,13 +23,13 @@ struct ShapedLqr {
 /// @param arm  joint angles of the equilibrium [rad]
 /// @param torque_weight  diagonal of R; more than 0
 /// @throw NumericalError if there is no equilibrium, or Q does not see the ball's way.
-ShapedLqr designShapedLqr(const ReducedDynamics& dynamics, const Vector3& arm,
+ShapedLqr designShapedLqr(const ReducedDynamics& dynamics, const ArmVector& arm,
                           const StateJacobian& Q, const JointVector& torque_weight,
                           const FrequencyShaping& shaping);
 
 /// Second derivative of the MPC's state cost rate at the equilibrium of the arm pose, references
 /// moved there: the Q of designShapedLqr.
 StateJacobian stateWeightOfTasks(const RobotParameters& robot, const Constraints& constraints,
-                                 Tasks tasks, const Vector3& arm);
+                                 Tasks tasks, const ArmVector& arm);
 
 }  // namespace ballbot

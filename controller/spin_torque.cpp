@@ -66,11 +66,14 @@ void expandSpinTorqueCost(const SpinTorque& spin, const Constraints& limits, con
   }
 }
 
-template void expandSpinTorqueCost<6>(const SpinTorque&, const Constraints&, const StateVector&,
-                                      const Vector3&, double, LqStage<kMpcStateDim, 6>&) noexcept;
-template void expandSpinTorqueCost<9>(const SpinTorque&, const Constraints&, const StateVector&,
-                                      const Vector3&, double, LqStage<kMpcStateDim, 9>&) noexcept;
-template void expandSpinTorqueCost<12>(const SpinTorque&, const Constraints&, const StateVector&,
-                                       const Vector3&, double, LqStage<kMpcStateDim, 12>&) noexcept;
+template void expandSpinTorqueCost<kJointCount>(const SpinTorque&, const Constraints&,
+                                                const StateVector&, const Vector3&, double,
+                                                LqStage<kMpcStateDim, kJointCount>&) noexcept;
+template void expandSpinTorqueCost<kJointCount + 3>(
+    const SpinTorque&, const Constraints&, const StateVector&, const Vector3&, double,
+    LqStage<kMpcStateDim, kJointCount + 3>&) noexcept;
+template void expandSpinTorqueCost<kJointCount + 6>(
+    const SpinTorque&, const Constraints&, const StateVector&, const Vector3&, double,
+    LqStage<kMpcStateDim, kJointCount + 6>&) noexcept;
 
 }  // namespace ballbot

@@ -50,7 +50,7 @@ TaskSchedule::TaskSchedule(const RobotParameters& robot) : robot_(robot) {
   const ReducedDynamics::EndEffector ee = dynamics.endEffector(rest_);
   ee_position = TimeSignal<3>(ee.p_WE);
   ee_orientation = TimeSignal<3>(yawPitchRollFromRotation(ee.R_WE));
-  arm_position = TimeSignal<3>(robot.nominal_arm);
+  arm_position = TimeSignal<kArmJointCount>(robot.nominal_arm);
 }
 
 void TaskSchedule::describe(ConfigVisitor& v) {
@@ -150,9 +150,9 @@ void TaskSchedule::at(double t, double now, Tasks& out, const ContactSituation& 
   out.R_WC = Eigen::AngleAxisd(turn, Vector3::UnitZ()) * contactFrame(contact_normal_W);
   // Who pushes does not stand still: there, torques cost what they are, which keeps the arm near.
   const bool stands = !out.inContact();
-  out.arm_torque = stands ? commands.arm_rest_torque : Vector3::Zero();
-  out.arm_position_wish = stands ? commands.arm_position_wish : Vector3::Zero();
-  out.arm_torque_wish = stands ? commands.arm_torque_wish : Vector3::Zero();
+  out.arm_torque = stands ? commands.arm_rest_torque : ArmVector::Zero();
+  out.arm_position_wish = stands ? commands.arm_position_wish : ArmVector::Zero();
+  out.arm_torque_wish = stands ? commands.arm_torque_wish : ArmVector::Zero();
 }
 
 double TaskSchedule::turnAboutHinge(const Vector3& p_WE) const {

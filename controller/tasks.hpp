@@ -39,10 +39,10 @@ struct Tasks {
   Eigen::Vector2d ball_position = Eigen::Vector2d::Zero();
   Eigen::Vector2d ball_velocity = Eigen::Vector2d::Zero();
   double yaw = 0;
-  Vector3 arm_position = Vector3::Zero();
-  Vector3 arm_torque = Vector3::Zero();  ///< that costs nothing [N m]
+  ArmVector arm_position = ArmVector::Zero();
+  ArmVector arm_torque = ArmVector::Zero();  ///< that costs nothing [N m]
   /// Slopes that are taken back: GovernedCommands.
-  Vector3 arm_position_wish = Vector3::Zero(), arm_torque_wish = Vector3::Zero();
+  ArmVector arm_position_wish = ArmVector::Zero(), arm_torque_wish = ArmVector::Zero();
   Vector3 contact_force_C = Vector3::Zero();   ///< on the end-effector [N]
   Vector3 contact_moment_C = Vector3::Zero();  ///< on the end-effector, at E [N m]
   Matrix3 R_WC = Matrix3::Identity();          ///< contact frame, z_C: normal pointing to the robot

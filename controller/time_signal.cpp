@@ -9,6 +9,7 @@
 #include "core/angle.hpp"
 #include "core/config_visitor.hpp"
 #include "core/error.hpp"
+#include "model/state.hpp"
 
 namespace ballbot {
 namespace {
@@ -193,5 +194,9 @@ BALLBOT_INSTANTIATE(1)
 BALLBOT_INSTANTIATE(2)
 BALLBOT_INSTANTIATE(3)
 #undef BALLBOT_INSTANTIATE
+#if BALLBOT_ARM_JOINTS > 3  // whose references have a size of their own
+template class TimeSignal<kArmJointCount>;
+template class TimedWeight<kArmJointCount>;
+#endif
 
 }  // namespace ballbot

@@ -87,11 +87,11 @@ void TractionLimitedContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
   expandTractionCost<NU>(margin_, marginAt(x, u), weight_, keeps_tilt_, out);
 }
 
-template class TractionLimitedProblem<6>;
-template class TractionLimitedProblem<9>;
-template class TractionLimitedProblem<12>;
-template class TractionLimitedContinuousProblem<6>;
-template class TractionLimitedContinuousProblem<9>;
-template class TractionLimitedContinuousProblem<12>;
+template class TractionLimitedProblem<kJointCount>;
+template class TractionLimitedProblem<kJointCount + 3>;
+template class TractionLimitedProblem<kJointCount + 6>;
+template class TractionLimitedContinuousProblem<kJointCount>;
+template class TractionLimitedContinuousProblem<kJointCount + 3>;
+template class TractionLimitedContinuousProblem<kJointCount + 6>;
 
 }  // namespace ballbot

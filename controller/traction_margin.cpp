@@ -110,11 +110,14 @@ void expandTractionCost(const TractionMargin& model, const TractionMargin::Rows&
   }
 }
 
-template void expandTractionCost<6>(const TractionMargin&, const TractionMargin::Rows&, double,
-                                    bool, LqStage<kMpcStateDim, 6>&) noexcept;
-template void expandTractionCost<9>(const TractionMargin&, const TractionMargin::Rows&, double,
-                                    bool, LqStage<kMpcStateDim, 9>&) noexcept;
-template void expandTractionCost<12>(const TractionMargin&, const TractionMargin::Rows&, double,
-                                     bool, LqStage<kMpcStateDim, 12>&) noexcept;
+template void expandTractionCost<kJointCount>(const TractionMargin&, const TractionMargin::Rows&,
+                                              double, bool,
+                                              LqStage<kMpcStateDim, kJointCount>&) noexcept;
+template void expandTractionCost<kJointCount + 3>(const TractionMargin&,
+                                                  const TractionMargin::Rows&, double, bool,
+                                                  LqStage<kMpcStateDim, kJointCount + 3>&) noexcept;
+template void expandTractionCost<kJointCount + 6>(const TractionMargin&,
+                                                  const TractionMargin::Rows&, double, bool,
+                                                  LqStage<kMpcStateDim, kJointCount + 6>&) noexcept;
 
 }  // namespace ballbot

@@ -20,7 +20,7 @@ namespace ballbot {
 class TractionMargin {
  public:
   static constexpr int kRows = 2 * kWheelCount;
-  static constexpr int kAngles = 2 + kArmJointCount;  ///< of z: x[kPitch] to x[kArm3]
+  static constexpr int kAngles = 2 + kArmJointCount;  ///< of z: x[kPitch] to x[kArm1 + 2]
   static constexpr int kZ = kAngles + kJointCount;
   using Rows = Eigen::Matrix<double, kRows, 1>;
   using Z = Eigen::Matrix<double, kZ, 1>;

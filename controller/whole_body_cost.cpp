@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "solver/vector_kernels.hpp"
+#include "controller/weighted_rows.hpp"
 
 namespace ballbot {
 namespace {
@@ -41,39 +41,6 @@ TwoSided addTwoSided(BarrierSum& sum, double above_lower, double below_upper, Co
   const RelaxedBarrier::Derivatives low = sum.add(above_lower, reference, terms);
   const RelaxedBarrier::Derivatives high = sum.add(below_upper, reference, terms);
   return {low.first - high.first, low.second + high.second};
-}
-
-/// Rows of weighted residuals of the end-effector: six by eight, one row after the other.
-struct alignas(32) WeightedRows {
-  double row[6][8];
-
-  void set(const EndEffectorJacobian& J, const Eigen::Matrix<double, 6, 1>& root_weight) {
-    for (int r = 0; r < 6; ++r)
-      for (int i = 0; i < 8; ++i) row[r][i] = root_weight[r] * J(r, i);
-  }
-};
-
-/// Adds A^T B to the 8 x 8 block of `out` at (row, column).
-void addRowsProduct(const WeightedRows& A, const WeightedRows& B, StateExpansion& out, int row,
-                    int column) {
-  for (int j = 0; j < 8; j += 4) {
-    double* C = out.W + (column + j) * out.stride + row;
-    Tile<2, 4> tile;
-    tile.load(C, out.stride);
-    tile.addProduct(A.row[0], 8, B.row[0] + j, 8, 1, 6);
-    tile.store(C, out.stride);
-  }
-}
-
-/// Adds A^T e to the gradient from index `first` on.
-void addRowsGradient(const WeightedRows& A, const Eigen::Matrix<double, 6, 1>& e,
-                     StateExpansion& out, int first) {
-  Tile<2, 1> sum;
-  sum.setZero();
-  sum.addProduct(A.row[0], 8, e.data(), 1, 0, 6);
-  alignas(32) double g[8];
-  sum.store(g, 8);
-  for (int i = 0; i < 8; ++i) out.g(first + i) += g[i];
 }
 
 }  // namespace
@@ -163,6 +130,8 @@ void WholeBodyCost::coordinateCost(const StateVector& x, const Tasks& tasks, dou
   square(kYaw, tasks.yaw_weight, tasks.yaw, kYawCost);
   for (int i = 0; i < 3; ++i) {
     square(kNu + kOmegaX + i, tasks.base_rate_weight[i], 0, kBaseRateCost);
+  }
+  for (int i = 0; i < kArmJointCount; ++i) {
     square(kArm1 + i, tasks.arm_position_weight[i], tasks.arm_position[i], kArmPositionCost);
     square(kNu + kArmRate1 + i, tasks.arm_rate_weight[i], 0, kArmRateCost);
   }

@@ -11,11 +11,12 @@ namespace {
 
 constexpr int kQ = kPositionDim;
 constexpr int kV = kVelocityDim;
-using Block8 = Eigen::Matrix<double, 8, 8>;
+static_assert(kQ == kV);
+using Block = Eigen::Matrix<double, kV, kV>;
 
 /// M T(q): only the columns of the angular velocity mix.
-Block8 timesT(const Block8& M, const EulerRates& euler) {
-  Block8 out = M;
+Block timesT(const Block& M, const EulerRates& euler) {
+  Block out = M;
   out.middleCols<3>(kOmegaX).noalias() = M.middleCols<3>(kYaw) * euler.T3;
   return out;
 }
@@ -118,31 +119,31 @@ void WholeBodyProblem<NU>::linearizeStage(int k, const X& x, const PositionVecto
 
   // q_mid = q_mid(q, nu)
   const auto G_start = at_start.derivative(nu);
-  Block8 mid_q = Block8::Identity();
+  Block mid_q = Block::Identity();
   mid_q.block<3, 2>(kYaw, kPitch) += 0.5 * H * G_start;
-  const Block8 mid_nu = 0.5 * H * tTimes(at_start, Block8(Block8::Identity()));
+  const Block mid_nu = 0.5 * H * tTimes(at_start, Block(Block::Identity()));
   // nu+ = nu + H a(q_mid, nu, u)
-  const Block8 a_q = H * model.df_dx.template bottomLeftCorner<kV, kQ>();
-  Block8 nu_q = a_q;
+  const Block a_q = H * model.df_dx.template bottomLeftCorner<kV, kQ>();
+  Block nu_q = a_q;
   nu_q.middleCols<2>(kPitch).noalias() += 0.5 * H * a_q.middleCols<3>(kYaw) * G_start;
-  Block8 nu_nu =
+  Block nu_nu =
       H * model.df_dx.template bottomRightCorner<kV, kV>() + 0.5 * H * timesT(a_q, at_start);
   nu_nu.diagonal().array() += 1;
   // q+ = q + H/2 T(q_mid) (nu + nu+)
   const auto G_mid = at_mid.derivative(nu_sum);
-  Block8 q_q = 0.5 * H * tTimes(at_mid, nu_q);
+  Block q_q = 0.5 * H * tTimes(at_mid, nu_q);
   addAngleDerivative(G_mid, 0.5 * H, mid_q, q_q);
   q_q.diagonal().array() += 1;
-  Block8 two_nu = nu_nu;
+  Block two_nu = nu_nu;
   two_nu.diagonal().array() += 1;
-  Block8 q_nu = 0.5 * H * tTimes(at_mid, two_nu);
+  Block q_nu = 0.5 * H * tTimes(at_mid, two_nu);
   addAngleDerivative(G_mid, 0.5 * H, mid_nu, q_nu);
 
   auto A = lq.A();
-  A.template block<8, 8>(0, 0) = q_q;
-  A.template block<8, 8>(0, kQ) = q_nu;
-  A.template block<8, 8>(kQ, 0) = nu_q;
-  A.template block<8, 8>(kQ, kQ) = nu_nu;
+  A.template block<kV, kV>(0, 0) = q_q;
+  A.template block<kV, kV>(0, kQ) = q_nu;
+  A.template block<kV, kV>(kQ, 0) = nu_q;
+  A.template block<kV, kV>(kQ, kQ) = nu_nu;
 
   Eigen::Matrix<double, kV, NU> nu_u;
   nu_u.template leftCols<kJointCount>() = model.df_dtau.template bottomRows<kV>();
@@ -151,8 +152,8 @@ void WholeBodyProblem<NU>::linearizeStage(int k, const X& x, const PositionVecto
                                       nu_u.template rightCols<NU - kJointCount>());
   nu_u *= H;
   auto B = lq.B();
-  B.template block<8, NU>(0, 0) = 0.5 * H * tTimes(at_mid, nu_u);
-  B.template block<8, NU>(kQ, 0) = nu_u;
+  B.template block<kV, NU>(0, 0) = 0.5 * H * tTimes(at_mid, nu_u);
+  B.template block<kV, NU>(kQ, 0) = nu_u;
 
   for (int i = 0; i < kFilterDim; ++i) linearizeFilter(steps_[k], kStateDim + i, i, lq);
 }
@@ -219,8 +220,8 @@ void WholeBodyProblem<NU>::approximateFinalCost(const X& x, CostTerms& terms,
   cost_.expandFinal(x.template head<kStateDim>(), tasks_.back(), state_share_.back(), terms, value);
 }
 
-template class WholeBodyProblem<6>;
-template class WholeBodyProblem<9>;
-template class WholeBodyProblem<12>;
+template class WholeBodyProblem<kJointCount>;
+template class WholeBodyProblem<kJointCount + 3>;
+template class WholeBodyProblem<kJointCount + 6>;
 
 }  // namespace ballbot

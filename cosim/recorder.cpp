@@ -2,6 +2,7 @@
 
 #include "core/config_visitor.hpp"
 #include "messages/convert.hpp"
+#include "messages/digest_form.hpp"
 
 namespace ballbot {
 namespace {
@@ -72,8 +73,9 @@ void Recorder::record(const Tick& tick) {
 template <typename Message>
 bool Recorder::take(Channel channel, SimTime time, SimDuration period, const Message& message) {
   encodeMessage(message, bytes_);
-  digest_.add(bytes_.data(), bytes_.size());
-  addHash(channel, hash64(bytes_.data(), bytes_.size()));
+  const Bytes& digested = digestForm<Message>(bytes_, digest_room_);
+  digest_.add(digested.data(), digested.size());
+  addHash(channel, hash64(digested.data(), digested.size()));
   if (!log_ || period.count() < 0) return false;
   if (period.count() > 0) {
     SimTime& next_due = next_due_[static_cast<std::size_t>(channel)];

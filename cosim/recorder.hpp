@@ -77,7 +77,7 @@ class Recorder {
   ballbot_msgs::tick_digests tick_digests_{};
   ballbot_msgs::added_values added_{};
   PerAddedTo<bool> named_;  ///< the lists of what was added are written
-  Bytes bytes_;
+  Bytes bytes_, digest_room_;
 };
 
 }  // namespace ballbot

@@ -184,14 +184,20 @@ void RemoteParticipant::adoptReply(SimTime expected) {
     throwUnbelievable(
         fmt::format("it stands at {} ns and was asked for {} ns", reply.time_ns, toNs(expected)));
   }
-  fromMessage(reply.sensors, sensors_);
+  if (!fromMessage(reply.sensors, sensors_)) {
+    throwUnbelievable(fmt::format("it has sensors of {} joints, the robot has {}",
+                                  reply.sensors.joints, kJointCount));
+  }
   const std::string bad_sensor = firstImpossible(sensors_, expected);
   if (!bad_sensor.empty()) throwUnbelievable(bad_sensor);
   adoptAdded(AddedTo::kSensors, reply.added);
   state_digest_ = static_cast<std::uint64_t>(reply.state_digest);
   if (reply.truth_count == 1) {
     if (!truth_) truth_.emplace();
-    fromMessage(reply.truth[0], *truth_);
+    if (!fromMessage(reply.truth[0], *truth_)) {
+      throwUnbelievable(fmt::format("it has the truth of {} joints, the robot has {}",
+                                    reply.truth[0].joints, kJointCount));
+    }
     const std::string bad_truth = firstImpossible(*truth_, expected);
     if (!bad_truth.empty()) throwUnbelievable(bad_truth);
     adoptAdded(AddedTo::kTruth, reply.truth_added);

@@ -26,18 +26,20 @@ std::int64_t stampOf(const ballbot_msgs::tick_digests& message) {
 }
 
 template <typename Message, typename Frame>
-void unpack(const Message& message, Frame& out) {
-  fromMessage(message, out);
+bool unpack(const Message& message, Frame& out) {
+  return fromMessage(message, out);
 }
-void unpack(ballbot_msgs::added_values& message, ballbot_msgs::added_values& out) {
+bool unpack(ballbot_msgs::added_values& message, ballbot_msgs::added_values& out) {
   out = std::move(message);
+  return true;
 }
-void unpack(ballbot_msgs::tick_digests& message, ballbot_msgs::tick_digests& out) {
+bool unpack(ballbot_msgs::tick_digests& message, ballbot_msgs::tick_digests& out) {
   out = std::move(message);
+  return true;
 }
-void unpack(const ballbot_msgs::actuator_command& message, RecordedCommand& out) {
+bool unpack(const ballbot_msgs::actuator_command& message, RecordedCommand& out) {
   out.time = simTimeFromNs(message.sim_time_ns);
-  fromMessage(message, out.command);
+  return fromMessage(message, out.command);
 }
 
 bool isTypeOfRun(std::int64_t fingerprint) {
@@ -116,7 +118,9 @@ class RunLogReader {
                                    event_.channel, event_.timestamp_us, stampOf(message)));
     }
     list.emplace_back();
-    unpack(message, list.back());
+    if (unpack(message, list.back())) return;
+    list.pop_back();
+    lose(fmt::format("its {} message is of a robot with another number of joints", event_.channel));
   }
 
   void keepAdded(AddedRecord& record) {

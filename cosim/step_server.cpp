@@ -148,7 +148,10 @@ void StepServer::perform(std::int8_t kind) {
                                            toText(kLongestStep)));
       }
       ActuatorCommand command;
-      fromMessage(request_.command, command);
+      if (!fromMessage(request_.command, command)) {
+        throw std::logic_error(fmt::format("a command for {} joints, the robot has {}",
+                                           request_.command.joints, kJointCount));
+      }
       return participant_.doStep(time, step, command);
     }
     case Header::SAVE:

@@ -5,8 +5,8 @@
 namespace ballbot {
 
 void ArmSensing::update(const SensorFrame& frame) noexcept {
-  const Vector3 angle = frame.joint_angle.tail<kArmJointCount>();
-  const Vector3 rate = frame.joint_velocity.tail<kArmJointCount>();
+  const ArmVector angle = frame.joint_angle.tail<kArmJointCount>();
+  const ArmVector rate = frame.joint_velocity.tail<kArmJointCount>();
   if (!angle.allFinite() || !rate.allFinite()) return;
   if (!started_ || time_constant_s_ <= 0) {
     rate_ = rate;

@@ -28,8 +28,8 @@ class ArmSensing {
   double time_constant_s_;
   bool started_ = false;
   SimTime time_{};
-  Vector3 angle_ = Vector3::Zero();
-  Vector3 rate_ = Vector3::Zero();
+  ArmVector angle_ = ArmVector::Zero();
+  ArmVector rate_ = ArmVector::Zero();
 };
 
 }  // namespace ballbot

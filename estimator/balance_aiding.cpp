@@ -22,11 +22,11 @@ StateVector wholeBodyState(const FilterState& x, SimTime time, const JointHistor
   out.segment<2>(kPositionDim) = x.v_WK_W;
   out.segment<3>(kPositionDim + kOmegaX) = x.w_WB_B;
   if (joints.empty()) return out;
-  const Vector3 arm = joints.at(time).tail<kArmJointCount>();
+  const ArmVector arm = joints.at(time).tail<kArmJointCount>();
   const SimTime before = std::max(time - kRateSpan, joints.oldestTime());
-  out.segment<3>(kArm1) = arm;
+  out.segment<kArmJointCount>(kArm1) = arm;
   if (before < time) {
-    out.segment<3>(kPositionDim + kArmRate1) =
+    out.tail<kArmJointCount>() =
         (arm - joints.at(before).tail<kArmJointCount>()) / toSeconds(time - before);
   }
   return out;

@@ -46,7 +46,8 @@ void ContactForceObserver::update(SimTime now, const StateVector& x,
   rate_ = rate;
   time_ = now;
 
-  const Matrix3 J = dynamics_.endEffectorJacobian(q).topRightCorner<3, kArmJointCount>();
+  const Eigen::Matrix<double, 3, kArmJointCount> J =
+      dynamics_.endEffectorJacobian(q).topRightCorner<3, kArmJointCount>();
   Matrix3 normal = J * J.transpose();
   normal.diagonal().array() += kSingularLever * kSingularLever;
   force_W_ = normal.ldlt().solve(J * residual_.tail<kArmJointCount>());

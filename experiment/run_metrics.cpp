@@ -29,7 +29,7 @@ ContactMetrics contactMetrics(const RunConfig& config) {
 RobotLimits limitsOf(const RunConfig& config) {
   const RobotParameters& robot = config.believedRobot();
   const Constraints c = config.controller.law->limits();
-  Vector3 lower, upper;  // the stops themselves: plans keep a margin from them
+  ArmVector lower, upper;  // the stops themselves: plans keep a margin from them
   for (int i = 0; i < kArmJointCount; ++i) {
     lower[i] = robot.arm[i].lower_limit;
     upper[i] = robot.arm[i].upper_limit;

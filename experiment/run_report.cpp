@@ -26,9 +26,6 @@
 namespace ballbot {
 namespace {
 
-constexpr const char* kWheels[] = {"wheel1", "wheel2", "wheel3"};
-constexpr const char* kArms[] = {"arm1", "arm2", "arm3"};
-
 /// Dashed, where the tasks ask for a place of the ball.
 void addBallReference(const LogTable& truth, const MotionReference& reference, PlotGroup& group) {
   const std::vector<double>& t = truth.column("time_s");
@@ -93,17 +90,14 @@ PlotGroup baseGroup(const std::vector<LogTable>& tables) {
 PlotGroup torqueGroup(const std::vector<LogTable>& tables, const RobotParameters& robot) {
   PlotGroup group{"Torques", "Commanded, and what the springs apply.", {}, {}};
   AxesBuilder wheels(tables, "wheel torque", "N m"), arms(tables, "arm torque", "N m");
-  for (int i = 0; i < 3; ++i) {
-    wheels
-        .line("truth", std::string("joint_torque_") + kWheels[i], fmt::format("wheel {}", i + 1),
-              SeriesStyle::kMeasured, i)
-        .line("command", std::string("torque_") + kWheels[i],
-              fmt::format("wheel {} commanded", i + 1), SeriesStyle::kCommanded, i);
-    arms.line("truth", std::string("joint_torque_") + kArms[i], fmt::format("joint {}", i + 1),
-              SeriesStyle::kMeasured, i)
-        .line("command", std::string("torque_") + kArms[i],
-              fmt::format("joint {} commanded", i + 1), SeriesStyle::kCommanded, i);
-  }
+  const auto addBoth = [](AxesBuilder& axes, const char* joint, const char* words, int i) {
+    axes.line("truth", fmt::format("joint_torque_{}{}", joint, i + 1),
+              fmt::format("{} {}", words, i + 1), SeriesStyle::kMeasured, i)
+        .line("command", fmt::format("torque_{}{}", joint, i + 1),
+              fmt::format("{} {} commanded", words, i + 1), SeriesStyle::kCommanded, i);
+  };
+  for (int i = 0; i < kWheelCount; ++i) addBoth(wheels, "wheel", "wheel", i);
+  for (int i = 0; i < kArmJointCount; ++i) addBoth(arms, "arm", "joint", i);
   wheels.limit("limit", robot.wheel_torque_limit);
   group.axes = {wheels.axes(), arms.axes()};
   return group;
@@ -136,8 +130,8 @@ PlotGroup handGroup(const RunLog& log, const MotionReference& reference) {
 PlotGroup armGroup(const std::vector<LogTable>& tables) {
   PlotGroup group{"Arm", "", {}, {}};
   AxesBuilder joints(tables, "joint angle", "rad");
-  for (int i = 0; i < 3; ++i) {
-    joints.line("truth", std::string("arm_angle_") + kArms[i], fmt::format("joint {}", i + 1),
+  for (int i = 0; i < kArmJointCount; ++i) {
+    joints.line("truth", fmt::format("arm_angle_arm{}", i + 1), fmt::format("joint {}", i + 1),
                 SeriesStyle::kMeasured, i);
   }
   group.axes = {joints.axes()};

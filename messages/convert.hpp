@@ -25,10 +25,11 @@ void toMessage(const PlanFrame& frame, std::int64_t tick, ballbot_msgs::plan_rep
 void toMessage(const ActuatorCommand& command, std::int64_t tick, SimTime time,
                ballbot_msgs::actuator_command& out);
 
-void fromMessage(const ballbot_msgs::sensor_frame& message, SensorFrame& out);
-void fromMessage(const ballbot_msgs::truth_frame& message, TruthFrame& out);
-void fromMessage(const ballbot_msgs::state_estimate& message, EstimateFrame& out);
-void fromMessage(const ballbot_msgs::plan_report& message, PlanFrame& out);
-void fromMessage(const ballbot_msgs::actuator_command& message, ActuatorCommand& out);
+// False, with `out` unspecified, if the message is of a robot with more or fewer joints.
+[[nodiscard]] bool fromMessage(const ballbot_msgs::sensor_frame& message, SensorFrame& out);
+[[nodiscard]] bool fromMessage(const ballbot_msgs::truth_frame& message, TruthFrame& out);
+[[nodiscard]] bool fromMessage(const ballbot_msgs::state_estimate& message, EstimateFrame& out);
+[[nodiscard]] bool fromMessage(const ballbot_msgs::plan_report& message, PlanFrame& out);
+[[nodiscard]] bool fromMessage(const ballbot_msgs::actuator_command& message, ActuatorCommand& out);
 
 }  // namespace ballbot

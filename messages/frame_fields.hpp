@@ -9,7 +9,11 @@
 
 namespace ballbot {
 
-// What a message carries of its frame, field by field in the order of the frame's signals.
+// What a message carries of its frame, field by field in the order of the frame's signals;
+// and how many of its fields have a size that depends on the robot.
+
+template <typename Message>
+struct FieldSizes;
 
 template <typename Visitor>
 void visitFields(ballbot_msgs::actuator_command& m, Visitor&& visit) {
@@ -19,6 +23,15 @@ void visitFields(ballbot_msgs::actuator_command& m, Visitor&& visit) {
   visit(m.stiffness);
   visit(m.damping);
 }
+template <>
+struct FieldSizes<ballbot_msgs::actuator_command> {
+  static constexpr int kPerJoint = 5, kPerCoordinate = 0;
+  template <typename M>
+  static void setCounts(M&& m, int joints, int coordinates) {
+    m.joints = joints;
+    (void)coordinates;
+  }
+};
 
 template <typename Visitor>
 void visitFields(ballbot_msgs::plan_report& m, Visitor&& visit) {
@@ -37,6 +50,16 @@ void visitFields(ballbot_msgs::plan_report& m, Visitor&& visit) {
   visit(m.regularisation);
   visit(m.cost_terms);
 }
+template <>
+struct FieldSizes<ballbot_msgs::plan_report> {
+  static constexpr int kPerJoint = 0, kPerCoordinate = 0;
+  template <typename M>
+  static void setCounts(M&& m, int joints, int coordinates) {
+    (void)joints;
+    (void)coordinates;
+    (void)m;
+  }
+};
 
 template <typename Visitor>
 void visitFields(ballbot_msgs::sensor_frame& m, Visitor&& visit) {
@@ -52,6 +75,15 @@ void visitFields(ballbot_msgs::sensor_frame& m, Visitor&& visit) {
   visit(m.pose_time_ns);
   visit(m.pose_W);
 }
+template <>
+struct FieldSizes<ballbot_msgs::sensor_frame> {
+  static constexpr int kPerJoint = 4, kPerCoordinate = 0;
+  template <typename M>
+  static void setCounts(M&& m, int joints, int coordinates) {
+    m.joints = joints;
+    (void)coordinates;
+  }
+};
 
 template <typename Visitor>
 void visitFields(ballbot_msgs::state_estimate& m, Visitor&& visit) {
@@ -61,6 +93,15 @@ void visitFields(ballbot_msgs::state_estimate& m, Visitor&& visit) {
   visit(m.contact_force_W);
   visit(m.aligned);
 }
+template <>
+struct FieldSizes<ballbot_msgs::state_estimate> {
+  static constexpr int kPerJoint = 0, kPerCoordinate = 2;
+  template <typename M>
+  static void setCounts(M&& m, int joints, int coordinates) {
+    (void)joints;
+    m.coordinates = coordinates;
+  }
+};
 
 template <typename Visitor>
 void visitFields(ballbot_msgs::truth_frame& m, Visitor&& visit) {
@@ -79,5 +120,14 @@ void visitFields(ballbot_msgs::truth_frame& m, Visitor&& visit) {
   visit(m.door_angle);
   visit(m.door_rate);
 }
+template <>
+struct FieldSizes<ballbot_msgs::truth_frame> {
+  static constexpr int kPerJoint = 4, kPerCoordinate = 2;
+  template <typename M>
+  static void setCounts(M&& m, int joints, int coordinates) {
+    m.joints = joints;
+    m.coordinates = coordinates;
+  }
+};
 
 }  // namespace ballbot

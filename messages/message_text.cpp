@@ -12,14 +12,35 @@ namespace {
 constexpr std::size_t kWidth = 100;
 
 struct Field {
-  std::string type, name;  ///< name with its size: "q[8]"
+  std::string type, name;  ///< name with its size: "p_WE[3]", "torque[joints]"
   std::string words;
 };
 
 struct Message {
   std::string name, words;  ///< words: lines of a comment
   std::vector<Field> fields;
+  int first = 0;  ///< of the fields that come from the frame's signals
 };
+
+/// A size that depends on the robot is a field of its own, before those that have it.
+struct Count {
+  const char* name;
+  const char* words;
+};
+constexpr Count kJoints{"joints", "actuators that the robot has: wheels and arm joints"};
+constexpr Count kCoordinates{"coordinates", "of the robot: 5 and its arm joints"};
+
+const Count* countOf(SignalExtent extent) {
+  switch (extent) {
+    case SignalExtent::kFixed:
+      return nullptr;
+    case SignalExtent::kPerJoint:
+      return &kJoints;
+    case SignalExtent::kPerArmJoint:
+      return &kCoordinates;
+  }
+  return nullptr;
+}
 
 const char* lcmType(SignalKind kind) {
   switch (kind) {
@@ -51,25 +72,44 @@ std::vector<Field> fieldsOf(const std::vector<Signal<Frame>>& signals) {
     const std::string name = signals[i].message_field;
     Field field{lcmType(signals[i].kind), name, ""};
     int size = 0;
+    const Count* count = nullptr;
     for (; i < signals.size() && signals[i].message_field == name; ++i) {
       const auto& s = signals[i];
       size += s.size;
+      if (s.extent != SignalExtent::kFixed) count = countOf(s.extent);
       field.words += (field.words.empty() ? "" : "; ") + wordsOf(s.description, s.kind, s.unit);
     }
-    if (size > 1) field.name += fmt::format("[{}]", size);
+    if (count) {
+      field.name += fmt::format("[{}]", count->name);
+    } else if (size > 1) {
+      field.name += fmt::format("[{}]", size);
+    }
     out.push_back(field);
   }
   return out;
 }
 
+/// How many fields have that size.
+int sizesBy(const Count& count, const std::vector<Field>& fields) {
+  const std::string size = fmt::format("[{}]", count.name);
+  return static_cast<int>(std::count_if(fields.begin(), fields.end(), [&](const Field& f) {
+    return f.name.find(size) != std::string::npos;
+  }));
+}
+
 template <typename Frame>
 Message message(const char* name, const char* words, const char* time_words,
                 const std::vector<Signal<Frame>>& signals) {
-  Message m{name, words, {}};
+  Message m{name, words, {}, 0};
   m.fields = {{"int64_t", "checksum", "of the encoded message; 0 inside another message"},
               {"int64_t", "tick", "number of the event; 0 inside a request or reply"},
               {"int64_t", "sim_time_ns", time_words}};
-  for (const Field& f : fieldsOf(signals)) m.fields.push_back(f);
+  const std::vector<Field> fields = fieldsOf(signals);
+  for (const Count& count : {kJoints, kCoordinates}) {
+    if (sizesBy(count, fields) > 0) m.fields.push_back({"int32_t", count.name, count.words});
+  }
+  m.first = static_cast<int>(m.fields.size());
+  m.fields.insert(m.fields.end(), fields.begin(), fields.end());
   return m;
 }
 
@@ -78,7 +118,7 @@ std::vector<Message> messages() {
       message("actuator_command",
               "Controller -> plant or drives. Each drive applies, from sim_time_ns until the next\n"
               "command, torque + stiffness (position - joint_angle) + damping (velocity -\n"
-              "joint_velocity). Joint order: wheels 1 to 3, then arm joints 1 to 3.",
+              "joint_velocity). Joint order: wheels, then arm joints.",
               "simulated time from which it acts [ns]", commandSignals()),
       message("plan_report",
               "What happened in one solve of the planner. How long it took is a fact of the\n"
@@ -86,8 +126,8 @@ std::vector<Message> messages() {
               "simulated time of the state the plan starts from [ns]", planSignals()),
       message("sensor_frame",
               "Plant or drives -> controller: measured, never true, values. Joint order\n"
-              "everywhere: wheels 1 to 3, then arm joints 1 to 3. Frames: W world, z up; B robot\n"
-              "base, x forward.",
+              "everywhere: wheels, then arm joints. Frames: W world, z up; B robot base, x\n"
+              "forward.",
               "simulated time of the joint values [ns]", sensorSignals()),
       message("state_estimate",
               "What the controller knows about the robot. Frames: W world, z up; K ball centre; B\n"
@@ -142,17 +182,30 @@ std::string fieldsHeader() {
   text +=
       "\nnamespace ballbot {\n\n"
       "// What a message carries of its frame, field by field in the order of the frame's "
-      "signals.\n";
+      "signals;\n"
+      "// and how many of its fields have a size that depends on the robot.\n\n"
+      "template <typename Message>\n"
+      "struct FieldSizes;\n";
   for (const Message& m : messages()) {
     text += fmt::format(
         "\ntemplate <typename Visitor>\nvoid visitFields(ballbot_msgs::{}& m, Visitor&& visit) "
         "{{\n",
         m.name);
-    for (std::size_t i = 3; i < m.fields.size(); ++i) {
+    for (std::size_t i = static_cast<std::size_t>(m.first); i < m.fields.size(); ++i) {
       const std::string& name = m.fields[i].name;
       text += "  visit(m." + name.substr(0, name.find('[')) + ");\n";
     }
     text += "}\n";
+    text += fmt::format("template <>\nstruct FieldSizes<ballbot_msgs::{}> {{\n", m.name);
+    const int joints = sizesBy(kJoints, m.fields), coordinates = sizesBy(kCoordinates, m.fields);
+    text += fmt::format("  static constexpr int kPerJoint = {}, kPerCoordinate = {};\n", joints,
+                        coordinates);
+    text +=
+        "  template <typename M>\n  static void setCounts(M&& m, int joints, int coordinates) {\n";
+    text += joints > 0 ? "    m.joints = joints;\n" : "    (void)joints;\n";
+    text += coordinates > 0 ? "    m.coordinates = coordinates;\n" : "    (void)coordinates;\n";
+    if (joints + coordinates == 0) text += "    (void)m;\n";
+    text += "  }\n};\n";
   }
   return text + "\n}  // namespace ballbot\n";
 }

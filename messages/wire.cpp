@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
-#include "ballbot_msgs/plan_report.hpp"
-#include "ballbot_msgs/state_estimate.hpp"
 #include "ballbot_msgs/step_reply.hpp"
 #include "ballbot_msgs/step_request.hpp"
 #include "ballbot_msgs/tick_digests.hpp"
 #include "core/digest.hpp"
 #include "core/error.hpp"
+#include "messages/frame_fields.hpp"
+#include "model/state.hpp"
 
 namespace ballbot {
 namespace {
@@ -32,6 +32,14 @@ std::uint64_t readBigEndian(const std::uint8_t* at) noexcept {
   return value;
 }
 
+/// Bytes of a message inside another, where it has no fingerprint; without those of arrays that its
+/// own counts say the size of.
+template <typename Message>
+std::size_t innerBytes() noexcept {
+  static const auto bytes = static_cast<std::size_t>(Message{}._getEncodedSizeNoHash());
+  return bytes;
+}
+
 /// Walks over an encoded message: field by field, or by the count that stands before an array.
 class Walk {
  public:
@@ -46,12 +54,8 @@ class Walk {
   }
   /// A count from `least` on, of elements of so many bytes each.
   Walk& counted(std::size_t element_bytes, std::int32_t least = 0) noexcept {
-    const std::uint8_t* const count_at = at_;
-    if (!skip(kCountBytes).holds_) return *this;
-    std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < kCountBytes; ++i) bits = bits << 8 | count_at[i];
-    const auto count = static_cast<std::int32_t>(bits);
-    holds_ = count >= least && static_cast<std::size_t>(count) <= left_ / element_bytes;
+    const std::int32_t count = number();
+    holds_ = holds_ && count >= least && static_cast<std::size_t>(count) <= left_ / element_bytes;
     return holds_ ? skip(static_cast<std::size_t>(count) * element_bytes) : *this;
   }
   /// A text: its length counts the zero at its end, so it is never 0.
@@ -60,30 +64,81 @@ class Walk {
     holds_ = holds_ && at_[-1] == 0;
     return *this;
   }
+  /// A message with a frame, without its fingerprint: its counts say how many numbers it has.
+  template <typename Message>
+  Walk& frame() noexcept {
+    using Sizes = FieldSizes<Message>;
+    constexpr std::size_t counts = (Sizes::kPerJoint > 0) + (Sizes::kPerCoordinate > 0);
+    std::size_t numbers = 0;
+    skip(kFrameHead);
+    if (Sizes::kPerJoint > 0) numbers += Sizes::kPerJoint * count(kMaxWheels + kMaxArmJoints);
+    if (Sizes::kPerCoordinate > 0) numbers += Sizes::kPerCoordinate * count(kArm1 + kMaxArmJoints);
+    return skip(innerBytes<Message>() - kFrameHead - counts * kCountBytes + 8 * numbers);
+  }
+  /// As many of them as the count before them says.
+  template <typename Message>
+  Walk& frames() noexcept {
+    for (std::size_t left = count(kMaxMessageBytes / kFrameHead); left > 0 && holds_; --left) {
+      frame<Message>();
+    }
+    return *this;
+  }
   bool ends() const noexcept { return holds_ && left_ == 0; }
 
   static constexpr std::size_t kCountBytes = 4;
 
  private:
+  static constexpr std::size_t kFrameHead = 8 + 8 + 8;  ///< checksum, tick, sim_time_ns
+
+  std::int32_t number() noexcept {
+    const std::uint8_t* const at = at_;
+    if (!skip(kCountBytes).holds_) return 0;
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < kCountBytes; ++i) bits = bits << 8 | at[i];
+    return static_cast<std::int32_t>(bits);
+  }
+  /// A count that stands before what it counts, from 0 to `most`.
+  std::size_t count(std::int32_t most) noexcept {
+    const std::int32_t count = number();
+    holds_ = holds_ && count >= 0 && count <= most;
+    return holds_ ? static_cast<std::size_t>(count) : 0;
+  }
+
   const std::uint8_t* at_;
   std::size_t left_;
   bool holds_ = true;
 };
 
-/// Bytes of a message inside another, where it has no fingerprint.
-template <typename Message>
-std::size_t innerBytes() noexcept {
-  static const auto bytes = static_cast<std::size_t>(Message{}._getEncodedSizeNoHash());
-  return bytes;
-}
-
 }  // namespace
 
 template <>
+bool lengthsHold<ballbot_msgs::sensor_frame>(const std::uint8_t* data, std::size_t size) noexcept {
+  return Walk(data, size).skip(kFingerprintBytes).frame<ballbot_msgs::sensor_frame>().ends();
+}
+template <>
+bool lengthsHold<ballbot_msgs::truth_frame>(const std::uint8_t* data, std::size_t size) noexcept {
+  return Walk(data, size).skip(kFingerprintBytes).frame<ballbot_msgs::truth_frame>().ends();
+}
+template <>
+bool lengthsHold<ballbot_msgs::state_estimate>(const std::uint8_t* data,
+                                               std::size_t size) noexcept {
+  return Walk(data, size).skip(kFingerprintBytes).frame<ballbot_msgs::state_estimate>().ends();
+}
+template <>
+bool lengthsHold<ballbot_msgs::actuator_command>(const std::uint8_t* data,
+                                                 std::size_t size) noexcept {
+  return Walk(data, size).skip(kFingerprintBytes).frame<ballbot_msgs::actuator_command>().ends();
+}
+
+template <>
 bool lengthsHold<ballbot_msgs::step_request>(const std::uint8_t* data, std::size_t size) noexcept {
-  const std::size_t before_chunk =
-      innerBytes<ballbot_msgs::step_request>() - Walk::kCountBytes;  // of one without chunk
-  return Walk(data, size).skip(kFingerprintBytes + before_chunk).counted(1).ends();
+  return Walk(data, size)
+      .skip(kFingerprintBytes + innerBytes<ballbot_msgs::step_header>())
+      .skip(8 + 8 + 8 + 8)  // message_digest, config_digest, time_ns, step_ns
+      .frame<ballbot_msgs::actuator_command>()
+      .skip(4 + 4)  // blob_size, blob_offset
+      .counted(1)   // chunk
+      .ends();
 }
 
 template <>
@@ -92,8 +147,9 @@ bool lengthsHold<ballbot_msgs::step_reply>(const std::uint8_t* data, std::size_t
       .skip(kFingerprintBytes + innerBytes<ballbot_msgs::step_header>())
       .skip(8 + 1 + 1)  // server, status, exit_code
       .text()
-      .skip(8 + 8 + innerBytes<ballbot_msgs::sensor_frame>())  // time, digest
-      .counted(innerBytes<ballbot_msgs::truth_frame>())
+      .skip(8 + 8)  // time, digest
+      .frame<ballbot_msgs::sensor_frame>()
+      .frames<ballbot_msgs::truth_frame>()
       .counted(8)   // added
       .counted(8)   // truth_added
       .skip(4 + 4)  // blob_size, blob_offset

@@ -4,11 +4,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "ballbot_msgs/actuator_command.hpp"
 #include "ballbot_msgs/added_values.hpp"
+#include "ballbot_msgs/sensor_frame.hpp"
+#include "ballbot_msgs/state_estimate.hpp"
 #include "ballbot_msgs/step_header.hpp"
 #include "ballbot_msgs/step_reply.hpp"
 #include "ballbot_msgs/step_request.hpp"
 #include "ballbot_msgs/tick_digests.hpp"
+#include "ballbot_msgs/truth_frame.hpp"
 
 namespace ballbot {
 
@@ -47,6 +51,15 @@ bool lengthsHold(const std::uint8_t*, std::size_t size) noexcept {
   static const auto fixed = static_cast<std::size_t>(Message{}.getEncodedSize());
   return size == fixed;
 }
+template <>
+bool lengthsHold<ballbot_msgs::sensor_frame>(const std::uint8_t* data, std::size_t size) noexcept;
+template <>
+bool lengthsHold<ballbot_msgs::truth_frame>(const std::uint8_t* data, std::size_t size) noexcept;
+template <>
+bool lengthsHold<ballbot_msgs::state_estimate>(const std::uint8_t* data, std::size_t size) noexcept;
+template <>
+bool lengthsHold<ballbot_msgs::actuator_command>(const std::uint8_t* data,
+                                                 std::size_t size) noexcept;
 template <>
 bool lengthsHold<ballbot_msgs::step_request>(const std::uint8_t* data, std::size_t size) noexcept;
 template <>

@@ -32,12 +32,14 @@ void BalanceMetrics::add(const TruthFrame& truth, const ActuatorCommand& command
   tilt2_integral_ += dt * tilt * tilt;
   observed_s_ += dt;
   largest_wheel_torque_ =
-      std::max(largest_wheel_torque_, truth.joint_torque.head<3>().cwiseAbs().maxCoeff());
-  largest_arm_torque_ =
-      std::max(largest_arm_torque_, truth.joint_torque.tail<3>().cwiseAbs().maxCoeff());
-  torque_error2_integral_ += dt * (truth.joint_torque - command.torque).head<3>().squaredNorm() / 3;
+      std::max(largest_wheel_torque_, truth.joint_torque.head<kWheelCount>().cwiseAbs().maxCoeff());
+  largest_arm_torque_ = std::max(largest_arm_torque_,
+                                 truth.joint_torque.tail<kArmJointCount>().cwiseAbs().maxCoeff());
+  torque_error2_integral_ +=
+      dt * (truth.joint_torque - command.torque).head<kWheelCount>().squaredNorm() / kWheelCount;
   arm_torque_error2_integral_ +=
-      dt * (truth.joint_torque - command.torque).tail<3>().squaredNorm() / 3;
+      dt * (truth.joint_torque - command.torque).tail<kArmJointCount>().squaredNorm() /
+      kArmJointCount;
   if (!fell_ && !(tilt < kFallTiltDeg / kDegPerRad)) {
     fell_ = true;
     fall_time_ = truth.time;

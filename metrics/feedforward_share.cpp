@@ -26,8 +26,11 @@ std::map<std::string, double> FeedforwardShare::values() const {
 }
 
 std::vector<std::string> FeedforwardShare::names() {
-  return {"feedforward_share_wheels_percent", "feedforward_share_arm1_percent",
-          "feedforward_share_arm2_percent", "feedforward_share_arm3_percent"};
+  std::vector<std::string> out = {"feedforward_share_wheels_percent"};
+  for (int i = 1; i <= kArmJointCount; ++i) {
+    out.push_back("feedforward_share_arm" + std::to_string(i) + "_percent");
+  }
+  return out;
 }
 
 }  // namespace ballbot

@@ -11,8 +11,8 @@ namespace {}  // namespace
 void LimitMargins::add(const TruthFrame& truth, const ActuatorCommand& command) {
   if (truth.time < from_) return;
   any_ = true;
-  const Vector3 arm = truth.state.segment<3>(kArm1);
-  const Vector3 rate = truth.state.segment<3>(kPositionDim + kArmRate1);
+  const ArmVector arm = truth.state.segment<kArmJointCount>(kArm1);
+  const ArmVector rate = truth.state.segment<kArmJointCount>(kPositionDim + kArmRate1);
   wheel_torque_ =
       std::min(wheel_torque_,
                limits_.wheel_torque - command.torque.head<kWheelCount>().cwiseAbs().maxCoeff());

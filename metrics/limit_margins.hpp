@@ -11,10 +11,10 @@ namespace ballbot {
 
 /// What the robot should stay within.
 struct RobotLimits {
-  double wheel_torque = 0, arm_torque = 0;                           ///< of the command [N m]
-  Vector3 arm_lower = Vector3::Zero(), arm_upper = Vector3::Zero();  ///< [rad]
-  double arm_rate = 0;                                               ///< [rad/s]
-  double tilt = 0;                                                   ///< [rad]
+  double wheel_torque = 0, arm_torque = 0;                                 ///< of the command [N m]
+  ArmVector arm_lower = ArmVector::Zero(), arm_upper = ArmVector::Zero();  ///< [rad]
+  double arm_rate = 0;                                                     ///< [rad/s]
+  double tilt = 0;                                                         ///< [rad]
 };
 
 /// How close the run came to its limits: the smallest distance to each kind of limit, negative

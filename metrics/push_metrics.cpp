@@ -48,7 +48,7 @@ void PushMetrics::add(const TruthFrame& truth, const PlaceReference& reference) 
   if (it == responses_.rend()) return;
   Response& r = *it;
   const Vector3 ball(truth.state[kBallX], truth.state[kBallY], 0);
-  const Vector3 arm = truth.state.segment<3>(kArm1);
+  const ArmVector arm = truth.state.segment<kArmJointCount>(kArm1);
   const Eigen::Vector2d lean = horizontalLean(truth.state);
   if (!r.begun) {
     r.begun = true;

@@ -60,7 +60,7 @@ class PushMetrics {
     Eigen::Vector2d impulse = Eigen::Vector2d::Zero();  ///< [N s]
     bool begun = false, seen_to_its_end = false;
     Way ball, ee;
-    Vector3 arm_home = Vector3::Zero();
+    ArmVector arm_home = ArmVector::Zero();
     Eigen::Vector2d lean_home = Eigen::Vector2d::Zero();
     double arm_excursion = 0, lean_against = 0;
   };

@@ -1,5 +1,6 @@
 #include "metrics/static_balance.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "model/body_poses.hpp"
@@ -9,8 +10,10 @@ namespace ballbot {
 
 UpperBody upperBody(const RobotParameters& robot, const StateVector& x) {
   const auto poses = bodyPoses(robot, x);
-  const BodyInertia bodies[] = {robot.baseWithWheels(), robot.arm[0].inertia, robot.arm[1].inertia,
-                                robot.lastLinkWithPayload()};
+  std::array<BodyInertia, 1 + kArmJointCount> bodies;
+  bodies[0] = robot.baseWithWheels();
+  for (int i = 0; i + 1 < kArmJointCount; ++i) bodies[1 + i] = robot.arm[i].inertia;
+  bodies.back() = robot.lastLinkWithPayload();
   UpperBody out;
   Vector3 moment = Vector3::Zero();
   for (std::size_t i = 0; i < poses.size(); ++i) {

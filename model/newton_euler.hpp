@@ -10,16 +10,17 @@
 
 namespace ballbot {
 
-/// Of six angles; the arrays have room for eight.
-template <typename Scalar>
+/// Of kCount angles; the arrays have room for whole eights.
+template <int kCount, typename Scalar>
 void sinesAndCosines(const Scalar* angle, Scalar* sine, Scalar* cosine) {
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < kCount; ++i) {
     sine[i] = std::sin(angle[i]);
     cosine[i] = std::cos(angle[i]);
   }
 }
-inline void sinesAndCosines(const double* angle, double* sine, double* cosine) {
-  sineCosine8(angle, sine, cosine);
+template <int kCount>
+void sinesAndCosines(const double* angle, double* sine, double* cosine) {
+  for (int i = 0; i < kCount; i += 8) sineCosine8(angle + i, sine + i, cosine + i);
 }
 
 /// Newton-Euler pass of the reduced model at one state. Everything is expressed in axes of B with
@@ -46,6 +47,8 @@ class NewtonEuler {
   using Mass = Eigen::Matrix<Scalar, kVelocities, kVelocities>;
   template <typename T>
   using PerJoint = std::array<T, kArmJointCount>;
+  template <typename T>
+  using PerBody = std::array<T, 1 + kArmJointCount>;
 
   NewtonEuler(const DynamicsConstants& constants, const Vec8& q, const Velocities& nu)
       : c_(constants), rho_(constants.ratio), G_(constants.spin_inertia.cast<Scalar>()) {
@@ -154,18 +157,19 @@ class NewtonEuler {
   PerJoint<Wrench<Scalar>> joint_wrench;  ///< composite momentum per unit of joint rate
 
   Vec3 omega, kappa, spin_momentum;  ///< of base, ball, and of the wheels: G s
-  std::array<Motion<Scalar>, 4> velocity;
-  std::array<MassMoments<Scalar>, 4> composite;   ///< of the body and all beyond it
-  std::array<VelocityMoments<Scalar>, 4> moving;  ///< of those
-  std::array<Wrench<Scalar>, 4> bias;             ///< wrench on those, at dnu/dt = 0
-  PerJoint<Scalar> rate;                          ///< arm joint rates
+  PerBody<Motion<Scalar>> velocity;
+  PerBody<MassMoments<Scalar>> composite;   ///< of the body and all beyond it
+  PerBody<VelocityMoments<Scalar>> moving;  ///< of those
+  PerBody<Wrench<Scalar>> bias;             ///< wrench on those, at dnu/dt = 0
+  PerJoint<Scalar> rate;                    ///< arm joint rates
 
  private:
   [[gnu::flatten]] void placeBase(const Vec8& q, const Velocities& nu) {
-    const Scalar angle[8] = {q[kYaw],  q[kPitch], q[kRoll],  q[kArm1],
-                             q[kArm2], q[kArm3],  Scalar(0), Scalar(0)};
-    Scalar sine[8], cosine[8];
-    sinesAndCosines(angle, sine, cosine);
+    constexpr int kAngles = kPositionDim - kYaw, kRoom = (kAngles + 7) / 8 * 8;
+    Scalar angle[kRoom], sine[kRoom], cosine[kRoom];
+    for (int i = 0; i < kAngles; ++i) angle[i] = q[kYaw + i];
+    for (int i = kAngles; i < kRoom; ++i) angle[i] = Scalar(0);
+    sinesAndCosines<kAngles>(angle, sine, cosine);
     sin_yaw = sine[0], sin_pitch = sine[1], sin_roll = sine[2];
     cos_yaw = cosine[0], cos_pitch = cosine[1], cos_roll = cosine[2];
     for (int i = 0; i < kArmJointCount; ++i) {
@@ -217,7 +221,7 @@ class NewtonEuler {
   /// Sums masses and forces from the tip inwards.
   [[gnu::flatten]] void goInward() {
     // Acceleration of the frame at dnu/dt = 0; gravity is an upward acceleration of K.
-    std::array<Motion<Scalar>, 4> acceleration;
+    PerBody<Motion<Scalar>> acceleration;
     acceleration[0] = {Vec3::Zero(), Scalar(c_.gravity) * R_WB.row(2).transpose()};
     for (int i = 0; i < kArmJointCount; ++i) {
       acceleration[i + 1] = acceleration[i] + joint_rate[i] * rate[i];

@@ -78,9 +78,10 @@ void scatter(const Pack* from, double* const (&to)[Pack::kLanes]) {
   }
 }
 
-/// Of six angles, four lanes each.
-inline void sinesAndCosines(const Pack* angle, Pack* sine, Pack* cosine) {
-  for (int i = 0; i < 6; i += 2) {
+/// Of kCount angles, four lanes each; the arrays have room for whole pairs.
+template <int kCount>
+void sinesAndCosines(const Pack* angle, Pack* sine, Pack* cosine) {
+  for (int i = 0; i < kCount; i += 2) {
     double a[8], s[8], c[8];
     for (int k = 0; k < 2; ++k) angle[i + k].store(a + 4 * k);
     sineCosine8(a, s, c);

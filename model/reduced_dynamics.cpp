@@ -100,7 +100,7 @@ double ReducedDynamics::energy(const StateVector& x) const {
   return 0.5 * nu.dot(pass.massMatrix() * nu) + constants_->gravity * height_moment;
 }
 
-Equilibrium findEquilibrium(const ReducedDynamics& dynamics, const Vector3& arm) {
+Equilibrium findEquilibrium(const ReducedDynamics& dynamics, const ArmVector& arm) {
   Equilibrium found;
   found.x.setZero();
   found.x.segment<kArmJointCount>(kArm1) = arm;

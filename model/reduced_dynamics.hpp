@@ -112,6 +112,6 @@ struct Equilibrium {
   StateVector x;
   JointVector tau;
 };
-Equilibrium findEquilibrium(const ReducedDynamics& dynamics, const Vector3& arm);
+Equilibrium findEquilibrium(const ReducedDynamics& dynamics, const ArmVector& arm);
 
 }  // namespace ballbot

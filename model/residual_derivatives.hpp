@@ -28,9 +28,9 @@ class ResidualDerivatives {
 
   /// Columns: by the variables that r depends on, then S^T and J_E^T.
   enum Column : int {
-    kByEuler = 0,              // yaw, pitch, roll
-    kByArm = kByEuler + 3,     // arm joint angles
-    kByVelocity = kByArm + 3,  // nu
+    kByEuler = 0,                           // yaw, pitch, roll
+    kByArm = kByEuler + 3,                  // arm joint angles
+    kByVelocity = kByArm + kArmJointCount,  // nu
     kByTorque = kByVelocity + kVelocities,
     kByForce = kByTorque + kJointCount,
     kColumnCount = kByForce + 3
@@ -110,7 +110,7 @@ class ResidualDerivatives {
 template <typename Scalar, bool kSpin>
 void ResidualDerivatives<Scalar, kSpin>::byArm(const Velocities& acceleration) {
   // Accelerations with dnu, their part that comes from dnu, and the wrenches that go with them.
-  std::array<Motion<Scalar>, 4> actual, added;
+  typename Pass::template PerBody<Motion<Scalar>> actual, added;
   added[0] = {angular_, linear_};
   actual[0] = {angular_, a_K_};
   std::array<Motion<Scalar>, kArmJointCount> S_ddot;
@@ -237,7 +237,7 @@ void ResidualDerivatives<Scalar, kSpin>::byBaseVelocity() {
       columns(kBallVx + j, kByVelocity + k) = rho_ * rho_ * dot(p_.rolling.col(j), spun);
     }
   }
-  columns.template block<3, 2>(kArmRate1, kByVelocity).setConstant(Scalar(0));
+  columns.template block<kArmJointCount, 2>(kArmRate1, kByVelocity).setConstant(Scalar(0));
 }
 
 template <typename Scalar, bool kSpin>
@@ -247,6 +247,8 @@ void ResidualDerivatives<Scalar, kSpin>::byInputs() {
     const Vec3 arm = rho_ * c_.axles.row(i).transpose().template cast<Scalar>();
     for (int k = 0; k < 2; ++k) columns(kBallVx + k, kByTorque + i) = -dot(p_.rolling.col(k), arm);
     columns.template block<3, 1>(kOmegaX, kByTorque + i) = arm;
+  }
+  for (int i = 0; i < kArmJointCount; ++i) {
     columns(kArmRate1 + i, kByTorque + kWheelCount + i) = Scalar(1);
   }
   for (int k = 0; k < 3; ++k) {

@@ -1,13 +1,21 @@
 #include "model/robot_links.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "core/config_visitor.hpp"
 #include "core/error.hpp"
+#include "model/joint_names.hpp"
 
 namespace ballbot {
+
+RobotLinks::RobotLinks() {
+  const std::vector<std::string>& names = jointNames();
+  std::copy_n(names.begin(), kWheelCount, wheels.begin());
+  std::copy_n(names.begin() + kWheelCount, kArmJointCount, arm.begin());
+}
 
 std::vector<std::string> RobotLinks::bodies() const {
   std::vector<std::string> out{base, ball};
@@ -26,12 +34,13 @@ std::vector<std::string> RobotLinks::all() const {
 void RobotLinks::describe(ConfigVisitor& v) {
   v.text(may("base", "the root, with its origin at the ball's centre"), base);
   v.text(may("ball", "the ball"), ball);
-  v.text(may("wheel_1", "first wheel"), wheels[0]);
-  v.text(may("wheel_2", "second wheel"), wheels[1]);
-  v.text(may("wheel_3", "third wheel"), wheels[2]);
-  v.text(may("arm_1", "link of the arm that hangs on the base"), arm[0]);
-  v.text(may("arm_2", "link that hangs on the first"), arm[1]);
-  v.text(may("arm_3", "link that hangs on the second"), arm[2]);
+  auto key = jointNames().begin();
+  for (std::string& wheel : wheels) v.text(may((key++)->c_str(), "one of the wheels"), wheel);
+  for (std::size_t i = 0; i < arm.size(); ++i) {
+    v.text(may((key++)->c_str(), i == 0 ? "link of the arm that hangs on the base"
+                                        : "link of the arm that hangs on the one before"),
+           arm[i]);
+  }
   v.text(may("end_effector", "frame on the last link of the arm"), end_effector);
   v.text(may("imu", "frame on the base"), imu);
   v.check([this](const ConfigReader& in) {

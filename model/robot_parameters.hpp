@@ -63,9 +63,9 @@ struct RobotParameters {
   /// A point mass carried at E, known to the model; zero when nothing is carried [kg].
   double payload_mass = 0;
 
-  Vector3 nominal_arm = Vector3::Zero();  ///< arm pose to start from and to balance about [rad]
-  double wheel_torque_limit = 0;          ///< what traction allows [N m]
-  double arm_torque_limit = 0;            ///< [N m]
+  ArmVector nominal_arm = ArmVector::Zero();  ///< arm pose to start from and to balance about [rad]
+  double wheel_torque_limit = 0;              ///< what traction allows [N m]
+  double arm_torque_limit = 0;                ///< [N m]
   double wheel_speed_limit = kUnlimited;  ///< of a wheel relative to the base, by its drive [rad/s]
 
   /// Direction of contact i from K, in B (unit).

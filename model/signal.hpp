@@ -23,6 +23,13 @@ constexpr bool isWhole(SignalKind kind) {
   return kind != SignalKind::kReal && kind != SignalKind::kTime;
 }
 
+/// How many elements a signal has.
+enum class SignalExtent {
+  kFixed,        ///< as many for every robot
+  kPerJoint,     ///< one for each actuator: wheels, then arm joints
+  kPerArmJoint,  ///< one for each joint of the arm
+};
+
 /// One named quantity of a frame. The rows of a frame's table (model/signal_table.hpp) are the one
 /// place where its quantities are listed: message definitions, conversions, columns of exported
 /// logs, variables of the FMU and checks of what is received are made from them. All elements have
@@ -31,6 +38,7 @@ template <typename Frame>
 struct Signal {
   const char* message_field;  ///< field of the frame's .lcm type that carries it; may be empty
   const char* name;           ///< unique within the frame, and the same in every format
+  SignalExtent extent;
   int size;
   SignalKind kind;
   const char* unit;         ///< SI; empty where there is none

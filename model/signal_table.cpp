@@ -1,28 +1,51 @@
 #include "model/signal_table.hpp"
 
+#include <string>
+
 namespace ballbot {
 namespace {
 
-constexpr const char* kJoints = "wheel1 wheel2 wheel3 arm1 arm2 arm3";
-constexpr const char* kArm = "arm1 arm2 arm3";
+/// "wheel1 wheel2 ...", as many as there are.
+std::string numbered(const char* name, int count) {
+  std::string out;
+  for (int i = 1; i <= count; ++i) out += (i > 1 ? " " : "") + (name + std::to_string(i));
+  return out;
+}
+const char* armNames() {
+  static const std::string names = numbered("arm", kArmJointCount);
+  return names.c_str();
+}
+const char* jointNames() {
+  static const std::string names =
+      numbered("wheel", kWheelCount) + (kArmJointCount > 0 ? " " : "") + armNames();
+  return names.c_str();
+}
 constexpr const char* kAxes = "x y z";
 constexpr const char* kPlane = "x y";
 constexpr const char* kOne = "";
 
 // A contiguous run of doubles from `member` on. Frames hold no padding between such, and a frame
 // that is only read is never written through what reals() gives.
-#define BALLBOT_REALS(frame, field, name, size, unit, elements, text, member) \
-  Signal<frame> {                                                             \
-    field, name, size, SignalKind::kReal, unit, elements, text,               \
-        largestOf(SignalKind::kReal, unit),                                   \
-        [](const frame& f) -> const double* { return &(member); },            \
-        [](frame& f) -> double* { return &(member); }, nullptr, nullptr       \
+#define BALLBOT_REALS_OF(extent, frame, field, name, size, unit, elements, text, member) \
+  Signal<frame> {                                                                        \
+    field, name, extent, size, SignalKind::kReal, unit, elements, text,                  \
+        largestOf(SignalKind::kReal, unit),                                              \
+        [](const frame& f) -> const double* { return &(member); },                       \
+        [](frame& f) -> double* { return &(member); }, nullptr, nullptr                  \
   }
-#define BALLBOT_WHOLE(frame, kind, field, name, unit, largest, text, get, set) \
-  Signal<frame> {                                                              \
-    field, name, 1, kind, unit, kOne, text, largest, nullptr, nullptr,         \
-        [](const frame& f) -> std::int64_t { return get; },                    \
-        [](frame& f, std::int64_t value) { set; }                              \
+#define BALLBOT_REALS(frame, field, name, size, unit, elements, text, member) \
+  BALLBOT_REALS_OF(SignalExtent::kFixed, frame, field, name, size, unit, elements, text, member)
+#define BALLBOT_JOINTS(frame, name, unit, text)                                                   \
+  BALLBOT_REALS_OF(SignalExtent::kPerJoint, frame, #name, #name, kJointCount, unit, jointNames(), \
+                   text, f.name[0])
+#define BALLBOT_ARM(frame, field, name, unit, text, member)                              \
+  BALLBOT_REALS_OF(SignalExtent::kPerArmJoint, frame, field, name, kArmJointCount, unit, \
+                   armNames(), text, member)
+#define BALLBOT_WHOLE(frame, kind, field, name, unit, largest, text, get, set)               \
+  Signal<frame> {                                                                            \
+    field, name, SignalExtent::kFixed, 1, kind, unit, kOne, text, largest, nullptr, nullptr, \
+        [](const frame& f) -> std::int64_t { return get; },                                  \
+        [](frame& f, std::int64_t value) { set; }                                            \
   }
 #define BALLBOT_INTEGER(frame, kind, name, largest, text, member)                                \
   BALLBOT_WHOLE(frame, kind, name, name, "", largest, text, static_cast<std::int64_t>(f.member), \
@@ -37,38 +60,34 @@ constexpr const char* kOne = "";
                 f.member = simTimeFromNs(value))
 
 // The six quantities of a state (q, nu), with the word for whose it is.
-#define BALLBOT_STATE(frame, whose)                                                              \
-  BALLBOT_REALS(frame, "q", "ball_position_W", 2, "m", kPlane,                                   \
-                whose " position x, y of the ball centre in the world", f.state[kBallX]),        \
-      BALLBOT_REALS(frame, "q", "base_angles", 3, "rad", "yaw pitch roll",                       \
-                    whose " yaw (continuous), pitch, roll of the base", f.state[kYaw]),          \
-      BALLBOT_REALS(frame, "q", "arm_angle", 3, "rad", kArm, whose " angles of the arm joints",  \
-                    f.state[kArm1]),                                                             \
-      BALLBOT_REALS(frame, "nu", "ball_velocity_W", 2, "m/s", kPlane,                            \
-                    whose " velocity x, y of the ball centre in the world",                      \
-                    f.state[kPositionDim + kBallVx]),                                            \
-      BALLBOT_REALS(frame, "nu", "base_rate_B", 3, "rad/s", kAxes,                               \
-                    whose " angular velocity of the base in the world, in the base frame",       \
-                    f.state[kPositionDim + kOmegaX]),                                            \
-      BALLBOT_REALS(frame, "nu", "arm_rate", 3, "rad/s", kArm, whose " rates of the arm joints", \
-                    f.state[kPositionDim + kArmRate1])
+#define BALLBOT_STATE(frame, whose)                                                        \
+  BALLBOT_REALS(frame, "q", "ball_position_W", 2, "m", kPlane,                             \
+                whose " position x, y of the ball centre in the world", f.state[kBallX]),  \
+      BALLBOT_REALS(frame, "q", "base_angles", 3, "rad", "yaw pitch roll",                 \
+                    whose " yaw (continuous), pitch, roll of the base", f.state[kYaw]),    \
+      BALLBOT_ARM(frame, "q", "arm_angle", "rad", whose " angles of the arm joints",       \
+                  f.state[kArm1]),                                                         \
+      BALLBOT_REALS(frame, "nu", "ball_velocity_W", 2, "m/s", kPlane,                      \
+                    whose " velocity x, y of the ball centre in the world",                \
+                    f.state[kPositionDim + kBallVx]),                                      \
+      BALLBOT_REALS(frame, "nu", "base_rate_B", 3, "rad/s", kAxes,                         \
+                    whose " angular velocity of the base in the world, in the base frame", \
+                    f.state[kPositionDim + kOmegaX]),                                      \
+      BALLBOT_ARM(frame, "nu", "arm_rate", "rad/s", whose " rates of the arm joints",      \
+                  f.state[kPositionDim + kArmRate1])
 
 }  // namespace
 
 const std::vector<Signal<ActuatorCommand>>& commandSignals() {
-  static_assert(kJointCount == 6, "the elements name six joints");
   static const std::vector<Signal<ActuatorCommand>> signals = {
-      BALLBOT_REALS(ActuatorCommand, "torque", "torque", 6, "N m", kJoints,
-                    "feedforward torque at each joint: wheels 1 to 3, then arm joints 1 to 3",
-                    f.torque[0]),
-      BALLBOT_REALS(ActuatorCommand, "position", "position", 6, "rad", kJoints,
-                    "set-point of each joint's angle", f.position[0]),
-      BALLBOT_REALS(ActuatorCommand, "velocity", "velocity", 6, "rad/s", kJoints,
-                    "set-point of each joint's rate", f.velocity[0]),
-      BALLBOT_REALS(ActuatorCommand, "stiffness", "stiffness", 6, "N m/rad", kJoints,
-                    "gain on (position - joint angle) inside each drive", f.stiffness[0]),
-      BALLBOT_REALS(ActuatorCommand, "damping", "damping", 6, "N m s/rad", kJoints,
-                    "gain on (velocity - joint rate) inside each drive", f.damping[0]),
+      BALLBOT_JOINTS(ActuatorCommand, torque, "N m",
+                     "feedforward torque at each joint: wheels, then arm joints"),
+      BALLBOT_JOINTS(ActuatorCommand, position, "rad", "set-point of each joint's angle"),
+      BALLBOT_JOINTS(ActuatorCommand, velocity, "rad/s", "set-point of each joint's rate"),
+      BALLBOT_JOINTS(ActuatorCommand, stiffness, "N m/rad",
+                     "gain on (position - joint angle) inside each drive"),
+      BALLBOT_JOINTS(ActuatorCommand, damping, "N m s/rad",
+                     "gain on (velocity - joint rate) inside each drive"),
   };
   return signals;
 }
@@ -87,16 +106,14 @@ const std::vector<Signal<ExternalForces>>& externalForceSignals() {
 
 const std::vector<Signal<SensorFrame>>& sensorSignals() {
   static const std::vector<Signal<SensorFrame>> signals = {
-      BALLBOT_REALS(
-          SensorFrame, "motor_angle", "motor_angle", 6, "rad", kJoints,
-          "encoders behind the gear, before the spring: wheels 1 to 3, then arm joints 1 to 3",
-          f.motor_angle[0]),
-      BALLBOT_REALS(SensorFrame, "joint_angle", "joint_angle", 6, "rad", kJoints,
-                    "encoders behind the spring; wheels relative to the base", f.joint_angle[0]),
-      BALLBOT_REALS(SensorFrame, "joint_velocity", "joint_velocity", 6, "rad/s", kJoints,
-                    "rate of joint_angle as the drive computes it", f.joint_velocity[0]),
-      BALLBOT_REALS(SensorFrame, "joint_torque", "joint_torque", 6, "N m", kJoints,
-                    "spring torque on the joint, from the deflection", f.joint_torque[0]),
+      BALLBOT_JOINTS(SensorFrame, motor_angle, "rad",
+                     "encoders behind the gear, before the spring: wheels, then arm joints"),
+      BALLBOT_JOINTS(SensorFrame, joint_angle, "rad",
+                     "encoders behind the spring; wheels relative to the base"),
+      BALLBOT_JOINTS(SensorFrame, joint_velocity, "rad/s",
+                     "rate of joint_angle as the drive computes it"),
+      BALLBOT_JOINTS(SensorFrame, joint_torque, "N m",
+                     "spring torque on the joint, from the deflection"),
       BALLBOT_COUNT(SensorFrame, "imu_count",
                     "IMU samples so far; has grown when accel_B and gyro_WB_B are new", imu_count),
       BALLBOT_TIME(SensorFrame, "imu_time_ns", "imu_time",
@@ -120,15 +137,14 @@ const std::vector<Signal<SensorFrame>>& sensorSignals() {
 const std::vector<Signal<TruthFrame>>& truthSignals() {
   static const std::vector<Signal<TruthFrame>> signals = {
       BALLBOT_STATE(TruthFrame, "true"),
-      BALLBOT_REALS(TruthFrame, "joint_angle", "joint_angle", 6, "rad", kJoints,
-                    "true joint angles: wheels 1 to 3, integrated, relative to the base, then arm",
-                    f.joint_angle[0]),
-      BALLBOT_REALS(TruthFrame, "joint_velocity", "joint_velocity", 6, "rad/s", kJoints,
-                    "true joint rates", f.joint_velocity[0]),
-      BALLBOT_REALS(TruthFrame, "motor_angle", "motor_angle", 6, "rad", kJoints,
-                    "true rotor angles behind the gear, before the spring", f.motor_angle[0]),
-      BALLBOT_REALS(TruthFrame, "joint_torque", "joint_torque", 6, "N m", kJoints,
-                    "torque that the spring, or the ideal actuator, applies", f.joint_torque[0]),
+      BALLBOT_JOINTS(
+          TruthFrame, joint_angle, "rad",
+          "true joint angles: wheels, integrated, relative to the base, then arm joints"),
+      BALLBOT_JOINTS(TruthFrame, joint_velocity, "rad/s", "true joint rates"),
+      BALLBOT_JOINTS(TruthFrame, motor_angle, "rad",
+                     "true rotor angles behind the gear, before the spring"),
+      BALLBOT_JOINTS(TruthFrame, joint_torque, "N m",
+                     "torque that the spring, or the ideal actuator, applies"),
       BALLBOT_REALS(TruthFrame, "p_WE", "p_WE", 3, "m", kAxes,
                     "true end-effector position in the world", f.p_WE[0]),
       BALLBOT_REALS(TruthFrame, "quat_WE", "quat_WE", 4, "", "w x y z",
@@ -210,7 +226,10 @@ const std::vector<Signal<PlanFrame>>& planSignals() {
 }
 
 #undef BALLBOT_STATE
+#undef BALLBOT_REALS_OF
 #undef BALLBOT_REALS
+#undef BALLBOT_JOINTS
+#undef BALLBOT_ARM
 #undef BALLBOT_WHOLE
 #undef BALLBOT_INTEGER
 #undef BALLBOT_COUNT

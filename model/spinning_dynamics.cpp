@@ -59,7 +59,8 @@ SpinningStateVector SpinningDynamics::derivative(const SpinningStateVector& x,
 }
 
 SpinningDynamics::Linearization::Linearization() {
-  for (const int i : {+kBallX, +kBallY, +kArm1, +kArm2, +kArm3}) df_dx(i, kPositionDim + i) = 1;
+  for (const int i : {+kBallX, +kBallY}) df_dx(i, kPositionDim + i) = 1;
+  for (int i = kArm1; i < kPositionDim; ++i) df_dx(i, kPositionDim + i) = 1;
   df_dx(kRoll, kPositionDim + kOmegaX) = 1;
 }
 

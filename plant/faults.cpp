@@ -7,18 +7,18 @@
 #include <fmt/format.h>
 
 #include "core/config_visitor.hpp"
+#include "model/joint_names.hpp"
 
 namespace ballbot {
 namespace {
 
-constexpr const char* kJointNames[] = {"wheel_1", "wheel_2", "wheel_3", "arm_1", "arm_2", "arm_3"};
-
 int readJoint(ConfigReader& in, bool wheels_only) {
-  if (wheels_only) return in.choice<int>("joint", {{"wheel_1", 0}, {"wheel_2", 1}, {"wheel_3", 2}});
-  return in.choice<int>(
-      "joint",
-      {{"wheel_1", 0}, {"wheel_2", 1}, {"wheel_3", 2}, {"arm_1", 3}, {"arm_2", 4}, {"arm_3", 5}});
+  std::vector<std::string> names = jointNames();
+  if (wheels_only) names.resize(kWheelCount);
+  return static_cast<int>(in.chooseIndex("joint", names));
 }
+
+const std::string& nameOf(int joint) { return jointNames()[static_cast<std::size_t>(joint)]; }
 
 }  // namespace
 
@@ -27,15 +27,15 @@ std::string toText(const Fault& f) {
     case Fault::Kind::kImuGap:
       return "imu_gap";
     case Fault::Kind::kEncoderStuck:
-      return fmt::format("encoder_stuck {}", kJointNames[f.joint]);
+      return fmt::format("encoder_stuck {}", nameOf(f.joint));
     case Fault::Kind::kWheelSlip:
-      return fmt::format("wheel_slip {}", kJointNames[f.joint]);
+      return fmt::format("wheel_slip {}", nameOf(f.joint));
     case Fault::Kind::kDriveDead:
-      return fmt::format("drive_dead {}", kJointNames[f.joint]);
+      return fmt::format("drive_dead {}", nameOf(f.joint));
     case Fault::Kind::kSpikes:
       break;
   }
-  if (f.signal == Fault::Signal::kJoint) return fmt::format("spikes {}", kJointNames[f.joint]);
+  if (f.signal == Fault::Signal::kJoint) return fmt::format("spikes {}", nameOf(f.joint));
   return f.signal == Fault::Signal::kGyro ? "spikes gyro" : "spikes accel";
 }
 
@@ -63,13 +63,15 @@ void Fault::describe(ConfigVisitor& v, FaultKeys keys) {
                                                     {"joint_angle", Signal::kJoint}});
             });
   }
+  static const std::string kinds = fmt::format(
+      "one of {}; needed with encoder_stuck, drive_dead, wheel_slip (wheels only) and "
+      "spikes of joint_angle",
+      fmt::join(jointNames(), ", "));
   if (every || kind == Kind::kEncoderStuck || kind == Kind::kDriveDead || slip ||
       (spikes && signal == Signal::kJoint)) {
     v.other({"joint", "whose encoder is stuck or spoiled, whose drive is dead, or wheel that slips",
              !every},
-            "one of wheel_1, wheel_2, wheel_3, arm_1, arm_2, arm_3; needed with encoder_stuck, "
-            "drive_dead, wheel_slip (wheels only) and spikes of joint_angle",
-            [&](ConfigReader& in) { joint = readJoint(in, slip); });
+            kinds.c_str(), [&](ConfigReader& in) { joint = readJoint(in, slip); });
   }
   if (every || spikes) {
     v.number(may("size_sigma", "of spikes, in standard deviations of the sensor's own noise"),

@@ -37,7 +37,11 @@ struct MultibodyOptions {
 };
 
 /// Bodies an external force can act on.
-enum BodyIndex : int { kBallBody, kBaseBody, kLink1Body, kLink2Body, kLink3Body, kBodyCount };
+enum BodyIndex : int { kBallBody, kBaseBody, kLink1Body };  ///< and the arm's others
+constexpr int kBodyCount = kLink1Body + kArmJointCount;
+/// Body i of the arm, from 0; the last carries the end-effector.
+constexpr BodyIndex armBody(int i) { return static_cast<BodyIndex>(kLink1Body + i); }
+constexpr BodyIndex kHandBody = armBody(kArmJointCount - 1);
 
 /// A force on a body. The ball is isotropic and its orientation is not followed, so a point of the
 /// ball is given from its centre along the axes of W.
@@ -98,7 +102,7 @@ struct BodyMotion {
 struct RobotPose {
   double px = 0, py = 0;                ///< of K [m]
   double yaw = 0, pitch = 0, roll = 0;  ///< [rad]
-  Vector3 arm = Vector3::Zero();        ///< [rad]
+  ArmVector arm = ArmVector::Zero();    ///< [rad]
 };
 
 /// The robot's rigid bodies on a ball that rolls on a level floor without slip, or lies on one that

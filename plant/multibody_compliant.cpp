@@ -76,7 +76,7 @@ class CompliantMultibody final : public Multibody {
     u[0] = nu[kBallVx];
     u[1] = nu[kBallVy];
     Eigen::Map<Vector3>(u + kBaseU) = rotationFromQ(y) * nu.segment<3>(kOmegaX);
-    Eigen::Map<Vector3>(u + kArmU) = nu.segment<3>(kArmRate1);
+    Eigen::Map<ArmVector>(u + kArmU) = nu.tail<kArmJointCount>();
     Eigen::Map<Vector3>(u + ball_u_) << -u[1] / robot_.ball.radius, u[0] / robot_.ball.radius,
         ball_spin;
     project(y);

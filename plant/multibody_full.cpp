@@ -32,9 +32,12 @@ BodyInertia withoutRotors(BodyInertia body, BodyIndex index, const RobotParamete
 
 std::array<BodyInertia, kArmJointCount> linksOf(const RobotParameters& robot,
                                                 const MultibodyOptions& options) {
-  const BodyInertia last = robot.lastLinkWithPayload();
-  return {withoutRotors(robot.arm[0].inertia, kLink1Body, robot, options),
-          withoutRotors(robot.arm[1].inertia, kLink2Body, robot, options), last};
+  std::array<BodyInertia, kArmJointCount> links;
+  for (int i = 0; i + 1 < kArmJointCount; ++i) {
+    links[i] = withoutRotors(robot.arm[i].inertia, armBody(i), robot, options);
+  }
+  links.back() = robot.lastLinkWithPayload();
+  return links;
 }
 
 /// Structure R. y = (q, u) of Simbody.

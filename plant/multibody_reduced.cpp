@@ -27,10 +27,20 @@ BodyInertia withoutRotorSpin(BodyInertia body, BodyIndex index, const RobotParam
 /// Base and links, with the wheels on the base but for their spin.
 std::array<BodyInertia, 1 + kArmJointCount> bodiesOf(const RobotParameters& robot,
                                                      const MultibodyOptions& options) {
-  return {withoutRotorSpin(robot.baseWithWheels(), kBaseBody, robot, options),
-          withoutRotorSpin(robot.arm[0].inertia, kLink1Body, robot, options),
-          withoutRotorSpin(robot.arm[1].inertia, kLink2Body, robot, options),
-          robot.lastLinkWithPayload()};
+  std::array<BodyInertia, 1 + kArmJointCount> bodies;
+  bodies[0] = withoutRotorSpin(robot.baseWithWheels(), kBaseBody, robot, options);
+  for (int i = 0; i + 1 < kArmJointCount; ++i) {
+    bodies[1 + i] = withoutRotorSpin(robot.arm[i].inertia, armBody(i), robot, options);
+  }
+  bodies.back() = robot.lastLinkWithPayload();
+  return bodies;
+}
+
+std::array<BodyInertia, kArmJointCount> linksOf(
+    const std::array<BodyInertia, 1 + kArmJointCount>& bodies) {
+  std::array<BodyInertia, kArmJointCount> links;
+  std::copy(bodies.begin() + 1, bodies.end(), links.begin());
+  return links;
 }
 
 /// Structure M: Simbody knows carriage, base and arm only. A wheel or rotor is axisymmetric, so
@@ -41,7 +51,7 @@ std::array<BodyInertia, 1 + kArmJointCount> bodiesOf(const RobotParameters& robo
 ///          so M += I_w a a^T, h += I_w a bias, and I_w sigma (w x d) on the base;
 ///   rotor: J dsigma/dt = its shaft torque, reaction and J sigma (w x d) on its carrier.
 ///
-/// The mass matrix is the sum over four bodies of their kinetic energies: Simbody's calcM() takes
+/// The mass matrix is the sum over the bodies of their kinetic energies: Simbody's calcM() takes
 /// one pass per column and more time than everything else together.
 ///
 /// y = (q, u of Simbody | wheel angles | rotor angles, rotor rates, both behind the gear).
@@ -50,7 +60,7 @@ class ReducedMultibody final : public Multibody {
   ReducedMultibody(const RobotParameters& robot, const MultibodyOptions& options)
       : options_(options),
         bodies_(bodiesOf(robot, options)),
-        tree_(robot, bodies_[0], {bodies_[1], bodies_[2], bodies_[3]}, options.ball_spin),
+        tree_(robot, bodies_[0], linksOf(bodies_), options.ball_spin),
         rolling_(robot),
         mounts_(actuatorMounts(robot)),
         wheel_inertia_(robot.wheels.spin_inertia),
@@ -69,7 +79,7 @@ class ReducedMultibody final : public Multibody {
   void place(const RobotPose& pose, double* y) const override {
     std::fill_n(y, stateDim(), 0.0);
     tree_.place(pose, y, y + nq_);
-    if (options_.rotors) Eigen::Map<Vector3>(y + rotorAngles() + kWheelCount) = pose.arm;
+    if (options_.rotors) Eigen::Map<ArmVector>(y + rotorAngles() + kWheelCount) = pose.arm;
   }
 
   void setVelocity(const VelocityVector& nu, double ball_spin, double* y) const override {
@@ -79,7 +89,7 @@ class ReducedMultibody final : public Multibody {
     Eigen::Map<Vector3>(y + rotorRates()) =
         rolling_.rates(tree_.rotationFromQ(y), {u[0], u[1], 0},
                        Eigen::Map<const Vector3>(u + kOmegaU), options_.ball_spin ? ball_spin : 0);
-    Eigen::Map<Vector3>(y + rotorRates() + kWheelCount) = nu.segment<3>(kArmRate1);
+    Eigen::Map<ArmVector>(y + rotorRates() + kWheelCount) = nu.tail<kArmJointCount>();
   }
 
   void realize(const double* y) override {
@@ -88,10 +98,10 @@ class ReducedMultibody final : public Multibody {
     const BaseMotion& base = tree_.base();
     JointMotion& m = joints_;
     m.angle.head<kWheelCount>() = Eigen::Map<const Vector3>(y + wheelAngles());
-    m.angle.tail<kArmJointCount>() = Eigen::Map<const Vector3>(y + RobotTree::kArmQ);
+    m.angle.tail<kArmJointCount>() = Eigen::Map<const ArmVector>(y + RobotTree::kArmQ);
     m.velocity.head<kWheelCount>() =
         rolling_.rates(base.R_WB, base.v_WK_W, base.w_WB_W, base.ball_spin);
-    m.velocity.tail<kArmJointCount>() = Eigen::Map<const Vector3>(u + kArmU);
+    m.velocity.tail<kArmJointCount>() = Eigen::Map<const ArmVector>(u + kArmU);
     m.rotor_angle = m.angle;
     m.rotor_velocity = m.velocity;
     if (options_.rotors) {
@@ -152,7 +162,7 @@ class ReducedMultibody final : public Multibody {
                                                  Eigen::Map<const Vector3>(udot + kOmegaU),
                                                  options_.ball_spin ? udot[kSpinU] : 0) +
                                   rolling_.bias(tree_.base());
-    a.joint.tail<kArmJointCount>() = Eigen::Map<const Vector3>(udot + kArmU);
+    a.joint.tail<kArmJointCount>() = Eigen::Map<const ArmVector>(udot + kArmU);
     a.rotor = a.joint;
     if (options_.rotors) a.rotor = Eigen::Map<const JointVector>(ydot + rotorRates());
     return a;

@@ -236,7 +236,7 @@ class Plant::Impl {
       forces.push_back({kBaseBody, external_.base_point_B, external_.base_force_W});
     }
     if (!external_.end_effector_force_W.isZero(0)) {
-      forces.push_back({kLink3Body, config_.robot.p_A3E, external_.end_effector_force_W});
+      forces.push_back({kHandBody, config_.robot.p_A3E, external_.end_effector_force_W});
     }
   }
 
@@ -305,7 +305,7 @@ class Plant::Impl {
 
   void observeTruth(const JointMotion& joints, const JointVector& torque) {
     const BaseMotion base = dynamics_.multibody().base();
-    const BodyMotion hand = dynamics_.multibody().body(kLink3Body);
+    const BodyMotion hand = dynamics_.multibody().body(kHandBody);
     const Vector3 angles = yawPitchRollFromRotation(base.R_WB);
     TruthFrame& f = truth_;
     f.time = state_.now;

@@ -65,7 +65,7 @@ void PlantDynamics::settle(double* y) {
 }
 
 Surroundings::Point PlantDynamics::endEffector() const {
-  const BodyMotion link = multibody_->body(kLink3Body);
+  const BodyMotion link = multibody_->body(kHandBody);
   const Vector3 r = link.R_WL * p_A3E_;
   return {link.p_WL + r, link.v_WL_W + link.w_WL_W.cross(r)};
 }
@@ -116,7 +116,7 @@ void PlantDynamics::derivative(double since_tick, const double* y, double* ydot)
   if (surroundings_.stateDim() > 0) {
     const Vector3 force = surroundings_.derivative(surroundingsState(y), endEffector(),
                                                    ydot + multibody_->stateDim());
-    loads_.forces.push_back({kLink3Body, p_A3E_, force});
+    loads_.forces.push_back({kHandBody, p_A3E_, force});
   }
   if (held_) {
     multibody_->derivativeHeld(loads_, ydot);

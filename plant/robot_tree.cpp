@@ -123,7 +123,7 @@ RobotTree::RobotTree(const RobotParameters& robot, const BodyInertia& base,
     weight_[kLink1Body + j] = {link.mass, link.p_LLcm_L};
   }
   const BodyInertia last = robot.lastLinkWithPayload();
-  weight_[kLink3Body] = {last.mass, last.p_LLcm_L};
+  weight_[kHandBody] = {last.mass, last.p_LLcm_L};
 }
 
 void RobotTree::finishTopology() {
@@ -204,7 +204,7 @@ void RobotTree::place(const RobotPose& pose, double* q, double* u) const {
   q[1] = quat.x();
   q[2] = quat.y();
   q[3] = quat.z();
-  Eigen::Map<Vector3>(q + 4) = pose.arm;
+  Eigen::Map<ArmVector>(q + 4) = pose.arm;
 }
 
 void RobotTree::setVelocity(const double* q, const VelocityVector& nu, double ball_spin,
@@ -213,7 +213,7 @@ void RobotTree::setVelocity(const double* q, const VelocityVector& nu, double ba
   u[1] = nu[kBallVy];
   if (ball_spin_) u[kSpinU] = ball_spin;
   Eigen::Map<Vector3>(u + kOmegaU) = rotationFromQ(q) * nu.segment<3>(kOmegaX);
-  Eigen::Map<Vector3>(u + kArmU) = nu.segment<3>(kArmRate1);
+  Eigen::Map<ArmVector>(u + kArmU) = nu.tail<kArmJointCount>();
 }
 
 Matrix3 RobotTree::rotationFromQ(const double* q) const {

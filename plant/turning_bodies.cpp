@@ -27,9 +27,12 @@ BodyInertia withoutRotors(const BodyInertia& body, BodyIndex index, const RobotP
 
 std::array<BodyInertia, kArmJointCount> linksWithoutRotors(const RobotParameters& robot,
                                                            const MultibodyOptions& options) {
-  return {withoutRotors(robot.arm[0].inertia, kLink1Body, robot, options),
-          withoutRotors(robot.arm[1].inertia, kLink2Body, robot, options),
-          robot.lastLinkWithPayload()};
+  std::array<BodyInertia, kArmJointCount> links;
+  for (int i = 0; i + 1 < kArmJointCount; ++i) {
+    links[i] = withoutRotors(robot.arm[i].inertia, armBody(i), robot, options);
+  }
+  links.back() = robot.lastLinkWithPayload();
+  return links;
 }
 
 SimTK::MobilizedBody addWheel(SimTK::MobilizedBody& base, const RobotParameters& robot, int wheel) {

@@ -16,8 +16,8 @@ struct RobotSurvey {
   // At rest in the nominal pose:
   double height = 0;           ///< of the centre of mass of that, above the ball's centre [m]
   double pitch = 0, roll = 0;  ///< at which it stands [rad]
-  Vector3 arm_torque = Vector3::Zero();  ///< that holds the arm there [N m]
-  double fall_rate = 0;                  ///< fastest unstable pole there, arm held [1/s]
+  ArmVector arm_torque = ArmVector::Zero();  ///< that holds the arm there [N m]
+  double fall_rate = 0;                      ///< fastest unstable pole there, arm held [1/s]
 
   Workspace workspace;
   std::vector<Lean> leans;  ///< along the worst of twelve headings each: most torque

@@ -12,6 +12,8 @@
 namespace ballbot {
 namespace {
 
+constexpr double kMostPoses = 5000;
+
 /// From limit to limit, or once around.
 double angleAt(const ArmLink& link, int i, int steps) {
   const bool around = link.lower_limit <= -kUnlimited || link.upper_limit >= kUnlimited;
@@ -33,7 +35,8 @@ double fallRate(const ReducedDynamics& dynamics, const Equilibrium& rest) {
   Eigen::Matrix<double, kStateDim, kStateDim> A = at_rest.df_dx;
   const Eigen::Matrix<double, kVelocityDim, kArmJointCount> by_torque =
       at_rest.df_dtau.bottomRightCorner<kVelocityDim, kArmJointCount>();
-  const Matrix3 to_hold = by_torque.bottomRows<kArmJointCount>().inverse();
+  const Eigen::Matrix<double, kArmJointCount, kArmJointCount> to_hold =
+      by_torque.bottomRows<kArmJointCount>().inverse();
   A.bottomRows<kVelocityDim>() -= by_torque * to_hold * at_rest.df_dx.bottomRows<kArmJointCount>();
   return A.eigenvalues().real().maxCoeff();
 }
@@ -41,10 +44,13 @@ double fallRate(const ReducedDynamics& dynamics, const Equilibrium& rest) {
 Workspace surveyWorkspace(const ReducedDynamics& dynamics, int steps) {
   const RobotParameters& robot = dynamics.robot();
   Workspace out;
-  for (int i = 0; i < steps * steps * steps; ++i) {
-    const Vector3 arm(angleAt(robot.arm[0], i % steps, steps),
-                      angleAt(robot.arm[1], i / steps % steps, steps),
-                      angleAt(robot.arm[2], i / steps / steps, steps));
+  while (steps > 2 && std::pow(steps, kArmJointCount) > kMostPoses) --steps;
+  const int poses = static_cast<int>(std::lround(std::pow(steps, kArmJointCount)));
+  for (int pose = 0; pose < poses; ++pose) {
+    ArmVector arm;
+    for (int j = 0, rest = pose; j < kArmJointCount; ++j, rest /= steps) {
+      arm[j] = angleAt(robot.arm[j], rest % steps, steps);
+    }
     ++out.poses;
     Equilibrium rest;
     try {

@@ -11,16 +11,18 @@ struct Workspace {
 
   // Of the others:
   double largest_tilt = 0;                            ///< of the base at rest [rad]
-  Vector3 most_tilted_arm = Vector3::Zero();          ///< where that is [rad]
+  ArmVector most_tilted_arm = ArmVector::Zero();      ///< where that is [rad]
   double least_fall_rate = 0, largest_fall_rate = 0;  ///< fastest unstable poles [1/s]
-  Vector3 largest_arm_torque = Vector3::Zero();       ///< to hold still, of each joint [N m]
+  ArmVector largest_arm_torque = ArmVector::Zero();   ///< to hold still, of each joint [N m]
 
   // Of the end-effector from the ball's centre, the robot standing:
   double least_reach = 0, largest_reach = 0;    ///< in the plane [m]
   double least_height = 0, largest_height = 0;  ///< above the floor [m]
 };
 
-/// @param steps  poses of each joint, evenly from limit to limit; one that is unlimited goes around
+/// @param steps  poses of each joint, evenly from limit to limit; one that is unlimited goes
+/// around.
+///               Fewer for an arm of so many joints that they would be too many together
 Workspace surveyWorkspace(const ReducedDynamics& dynamics, int steps);
 
 /// The largest real part of the poles at rest [1/s].

@@ -38,7 +38,7 @@ void LiveFeed::listen() {
       continue;
     }
     TruthFrame truth;
-    fromMessage(reply.truth[0], truth);
+    if (!fromMessage(reply.truth[0], truth)) continue;
     if (!firstImpossible(truth, kLatestTime).empty()) continue;  // nothing that can be drawn
     due = WallTime::now() + kFramePeriod;
     std::string frame = scene_.frame(truth);

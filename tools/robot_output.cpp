@@ -14,11 +14,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<double> listed(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+std::vector<double> listed(const ArmVector& v) { return {v.data(), v.data() + v.size()}; }
 
 /// What is zero but for rounding is zero to read.
 double shown(double value) { return std::abs(value) < 1e-6 ? 0 : value; }
-std::vector<double> shown(const Vector3& v) { return {shown(v.x()), shown(v.y()), shown(v.z())}; }
+std::vector<double> shown(const ArmVector& v) {
+  std::vector<double> out;
+  for (const double value : v) out.push_back(shown(value));
+  return out;
+}
 
 std::string standingText(const RobotParameters& robot, const RobotSurvey& s) {
   std::string out = fmt::format(

@@ -188,7 +188,7 @@ TEST(DecoupledLaw, ItsIntegralTakesUpALoadNobodyToldItOf) {
   law->plan(kSimStart, x, JointVector::Zero());
   law->activatePlan();
   law->sample(kSimStart, first);
-  x[kArm2] += 0.05;  // the load makes the arm sag
+  x[kArm1 + 1] += 0.05;  // the load makes the arm sag
   for (int i = 1; i <= 20; ++i) law->plan(at(kStep * i), x, JointVector::Zero());
   law->activatePlan();
   law->sample(at(kStep * 20), later);

@@ -31,7 +31,7 @@ VelocityVector force(double along, double moment, double arm) {
   VelocityVector d = VelocityVector::Zero();
   d[kBallVx] = along;
   d[kOmegaY] = moment;
-  d[kArmRate2] = arm;
+  d[kArmRate1 + 1] = arm;
   return d;
 }
 

@@ -35,7 +35,7 @@ class MpcEngineTest : public testing::Test {
     x0_[kYaw] = 0.1;
     x0_[kArm1] = 0.15;
     x0_[kPositionDim + kOmegaX] = 0.2;
-    x0_[kPositionDim + kArmRate2] = -0.3;
+    x0_[kPositionDim + kArmRate1 + 1] = -0.3;
   }
   /// What every case has: a cost of torques and rates, or the problem has no unique solution.
   TaskSchedule regularised() const {

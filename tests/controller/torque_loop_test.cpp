@@ -204,8 +204,8 @@ TEST(StateWeightOfTasks, AnEndEffectorTaskPricesWhatMovesIt) {
   const StateJacobian barriers =
       stateWeightOfTasks(robot, Constraints(robot), tasks, robot.nominal_arm);
   const PositionVector q = findEquilibrium(dynamics, robot.nominal_arm).x.head<kPositionDim>();
-  const double lever = dynamics.endEffectorJacobian(q)(2, kArmRate2);
-  EXPECT_NEAR((with - barriers)(kArm2, kArm2), 400 * lever * lever, 1e-6);
+  const double lever = dynamics.endEffectorJacobian(q)(2, kArmRate1 + 1);
+  EXPECT_NEAR((with - barriers)(kArm1 + 1, kArm1 + 1), 400 * lever * lever, 1e-6);
   EXPECT_NEAR((with - barriers)(kBallX, kBallX), 0, 1e-9);
 }
 

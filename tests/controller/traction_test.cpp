@@ -98,7 +98,7 @@ TEST(TractionMargin, TheExpansionIsThatOfTheCost) {
       const double slope = (cost(x, tau + step) - cost(x, tau - step)) / (2 * h);
       EXPECT_NEAR(lq.r()[i], slope, 1e-5 * (1 + std::abs(slope))) << size;
     }
-    for (int i = kPitch; i <= kArm3; ++i) {
+    for (int i = kPitch; i <= kArm1 + 2; ++i) {
       const StateVector step = h * StateVector::Unit(i);
       const double slope = (cost(x + step, tau) - cost(x - step, tau)) / (2 * h);
       EXPECT_NEAR(lq.q()[i], slope, 1e-5 * (1 + std::abs(slope))) << size;

@@ -92,8 +92,8 @@ class WholeBodyProblemTest : public testing::TestWithParam<int> {
   /// Where barriers are relaxed.
   void beyondEveryLimit() {
     x_[kPitch] = 0.5;
-    x_[kArm2] = -2.1;
-    x_[kArm3] = 2.7;
+    x_[kArm1 + 1] = -2.1;
+    x_[kArm1 + 2] = 2.7;
     x_.segment<3>(kPositionDim + kArmRate1) << 6.4, -5.9, -7;
     u_.head<6>() << 4.2, -3.9, -5, 18.4, -17.9, -20;
     u_.segment<3>(kJointCount) << 5, -3, 4;

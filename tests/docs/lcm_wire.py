@@ -33,7 +33,10 @@ def readDefinitions(folder):
 
 
 class Wire:
-    def __init__(self, folder):
+    """@param joints  of the robot: wheels and arm joints"""
+
+    def __init__(self, folder, joints=6):
+        self.robot = {"joints": joints, "coordinates": joints + 2}
         self.structs, self.constants = readDefinitions(folder)
         self.by_fingerprint = {self.fingerprint(name): name for name in self.structs}
 
@@ -127,14 +130,19 @@ class Wire:
         return name, message
 
     def zero(self, name):
-        """A message with every field zero, lists without fixed length empty."""
-        def value(type_):
-            return self.zero(type_) if type_ in self.structs else "" if type_ == "string" else 0
+        """A message with every field zero, of the robot's size; other lists without fixed length are empty."""
+        def value(type_, field):
+            if type_ in self.structs:
+                return self.zero(type_)
+            return "" if type_ == "string" else self.robot.get(field, 0)
 
         message = {}
         for type_, field, lengths in self.structs[name]:
-            count = int(lengths[0]) if lengths and lengths[0].isdigit() else 0
-            message[field] = [value(type_) for _ in range(count)] if lengths else value(type_)
+            if lengths:
+                count = int(lengths[0]) if lengths[0].isdigit() else self.robot.get(lengths[0], 0)
+                message[field] = [value(type_, field) for _ in range(count)]
+            else:
+                message[field] = value(type_, field)
         return message
 
     def size(self, name, **counts):

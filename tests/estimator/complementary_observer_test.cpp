@@ -154,8 +154,8 @@ TEST(ComplementaryObserver, BringsTheEstimateForwardAndReadsTheArm) {
   EXPECT_LT((x.head<2>() - m.p_WK.head<2>()).norm(), 1e-3);
   EXPECT_NEAR(x[kPitch], m.yaw_pitch_roll[1], 5e-4);
   EXPECT_NEAR(x[kArm1], 0.102, 1e-9);
-  EXPECT_NEAR(x[kArm3], 0.298, 1e-9);
-  EXPECT_NEAR(x[kPositionDim + kArmRate3], -1, 1e-9);
+  EXPECT_NEAR(x[kArm1 + 2], 0.298, 1e-9);
+  EXPECT_NEAR(x[kPositionDim + kArmRate1 + 2], -1, 1e-9);
 }
 
 TEST(ComplementaryObserver, ContinuesBitForBitAfterRestore) {

@@ -50,7 +50,7 @@ TEST(ArmSensing, FollowsAStepOfTheRateWithItsTimeConstant) {
   }
   StateVector x = StateVector::Zero();
   arm.writeTo(frame.time, x);
-  EXPECT_NEAR(x[kPositionDim + kArmRate2], 1 - std::exp(-4.0 / 2.0), 1e-12);
+  EXPECT_NEAR(x[kPositionDim + kArmRate1 + 1], 1 - std::exp(-4.0 / 2.0), 1e-12);
 }
 
 TEST(RestAlignment, FindsTiltAndBiasAndLeavesTheRestCorrelated) {

@@ -107,7 +107,7 @@ TEST_P(FreeResponse, IsThatOfTheRobot) {
   ASSERT_GT(real.size(), 140u);
   for (const int element :
        {static_cast<int>(kBallX), static_cast<int>(kBallY), static_cast<int>(kPitch),
-        static_cast<int>(kRoll), static_cast<int>(kArm2), kPositionDim + kBallVx}) {
+        static_cast<int>(kRoll), static_cast<int>(kArm1 + 1), kPositionDim + kBallVx}) {
     EXPECT_LT(apart(real, linear, element), 0.05) << "element " << element;
   }
 }

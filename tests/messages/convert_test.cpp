@@ -57,7 +57,7 @@ TEST(Convert, ASensorFrameKeepsEveryBit) {
   toMessage(frame, 42, message);
   EXPECT_EQ(message.tick, 42);
   SensorFrame back;
-  fromMessage(overTheWire(message), back);
+  ASSERT_TRUE(fromMessage(overTheWire(message), back));
   EXPECT_EQ(back.time, frame.time);
   EXPECT_EQ(back.imu_count, 7);
   EXPECT_EQ(back.imu_time, frame.imu_time);
@@ -85,7 +85,7 @@ TEST(Convert, AnActuatorCommandKeepsEveryBit) {
   toMessage(command, 3, simTimeFromNs(400'000), message);
   EXPECT_EQ(message.sim_time_ns, 400'000);
   ActuatorCommand back;
-  fromMessage(overTheWire(message), back);
+  ASSERT_TRUE(fromMessage(overTheWire(message), back));
   EXPECT_TRUE(sameBits(back.torque, command.torque));
   EXPECT_TRUE(sameBits(back.position, command.position));
   EXPECT_TRUE(sameBits(back.velocity, command.velocity));
@@ -116,7 +116,7 @@ TEST(Convert, ATruthFrameKeepsEveryBit) {
   EXPECT_EQ(message.q[kPitch], truth.state[kPitch]);
   EXPECT_EQ(message.nu[kOmegaY], truth.state[kPositionDim + kOmegaY]);
   TruthFrame back;
-  fromMessage(overTheWire(message), back);
+  ASSERT_TRUE(fromMessage(overTheWire(message), back));
   EXPECT_EQ(back.time, truth.time);
   EXPECT_TRUE(sameBits(back.state, truth.state));
   EXPECT_TRUE(sameBits(back.joint_angle, truth.joint_angle));
@@ -145,7 +145,7 @@ TEST(Convert, AnEstimateKeepsEveryBit) {
   toMessage(estimate, 9, message);
   EXPECT_EQ(message.tick, 9);
   EstimateFrame back;
-  fromMessage(overTheWire(message), back);
+  ASSERT_TRUE(fromMessage(overTheWire(message), back));
   EXPECT_EQ(back.time, estimate.time);
   EXPECT_TRUE(back.aligned);
   EXPECT_TRUE(sameBits(back.state, estimate.state));
@@ -170,7 +170,7 @@ TEST(Convert, APlanKeepsEveryBit) {
   ballbot_msgs::plan_report message{};
   toMessage(plan, 11, message);
   PlanFrame back;
-  fromMessage(overTheWire(message), back);
+  ASSERT_TRUE(fromMessage(overTheWire(message), back));
   EXPECT_EQ(back.time, plan.time);
   EXPECT_EQ(back.acts_from, plan.acts_from);
   EXPECT_TRUE(back.accepted);
@@ -183,6 +183,27 @@ TEST(Convert, APlanKeepsEveryBit) {
   EXPECT_TRUE(sameBits(back.contact_asked_W, plan.contact_asked_W));
   EXPECT_TRUE(sameBits(back.contact_counted_on_W, plan.contact_counted_on_W));
   EXPECT_EQ(std::memcmp(back.cost_terms.data(), plan.cost_terms.data(), sizeof plan.cost_terms), 0);
+}
+
+TEST(Convert, AFrameOfAnotherRobotIsRefused) {
+  ballbot_msgs::sensor_frame message{};
+  toMessage(SensorFrame(), 1, message);
+  SensorFrame back;
+  ASSERT_TRUE(fromMessage(message, back));
+  message.joints = kJointCount + 1;
+  for (auto* values : {&message.motor_angle, &message.joint_angle, &message.joint_velocity,
+                       &message.joint_torque}) {
+    values->push_back(0);
+  }
+  EXPECT_FALSE(fromMessage(message, back));
+
+  ballbot_msgs::truth_frame truth{};
+  toMessage(TruthFrame(), 1, truth);
+  truth.coordinates = kPositionDim - 1;
+  truth.q.pop_back();
+  truth.nu.pop_back();
+  TruthFrame true_back;
+  EXPECT_FALSE(fromMessage(truth, true_back));
 }
 
 }  // namespace

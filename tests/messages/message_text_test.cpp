@@ -25,7 +25,7 @@ TEST(MessageText, AFieldOfSeveralSignalsHasAllTheirWords) {
   for (const WrittenFile& file : messageFiles()) {
     if (file.name != "sensor_frame.lcm") continue;
     EXPECT_NE(file.text.find("double  pose_W[3];"), std::string::npos) << file.text;
-    EXPECT_NE(file.text.find("[m]; externally"), std::string::npos) << file.text;
+    EXPECT_NE(file.text.find("in the world [m];"), std::string::npos) << file.text;
     EXPECT_NE(file.text.find("int64_t pose_time_ns;"), std::string::npos) << file.text;
     return;
   }

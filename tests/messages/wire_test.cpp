@@ -72,6 +72,29 @@ TEST(Wire, BytesThatSayTheyHoldMoreThanMemoryAreRefused) {
   EXPECT_FALSE(decodeMessage(bytes.data(), bytes.size(), back));
 }
 
+TEST(Wire, AFrameWithACountThatLiesIsRefused) {
+  ballbot_msgs::sensor_frame frame{};
+  frame.joints = 2;
+  for (auto* values :
+       {&frame.motor_angle, &frame.joint_angle, &frame.joint_velocity, &frame.joint_torque}) {
+    values->assign(2, 1.5);
+  }
+  Bytes whole;
+  encodeMessage(frame, whole);
+  ballbot_msgs::sensor_frame back{};
+  ASSERT_TRUE(decodeMessage(whole.data(), whole.size(), back));
+  EXPECT_THAT(back.joint_torque, testing::ElementsAre(1.5, 1.5));
+  constexpr std::size_t kJoints = 8 + 24;  // behind fingerprint, checksum, tick, time
+  for (const std::uint32_t lie : {0U, 1U, 3U, 11U, 12U, 1'000'000U, 0x80000000U, 0xFFFFFFFFU}) {
+    Bytes bytes = whole;
+    for (std::size_t i = 0; i < 4; ++i) {
+      bytes[kJoints + i] = static_cast<std::uint8_t>(lie >> (24 - 8 * i));
+    }
+    sealMessage(bytes);
+    EXPECT_FALSE(decodeMessage(bytes.data(), bytes.size(), back)) << lie;
+  }
+}
+
 /// A full reply, and where its three lengths stand.
 struct LongReply {
   LongReply() {
@@ -83,7 +106,7 @@ struct LongReply {
     encodeMessage(reply, bytes);
   }
   static constexpr std::size_t kText = 8 + 29 + 10;  // behind the header, server, status, exit code
-  static constexpr std::size_t kTruth = kText + 4 + 5 + 16 + 320;  // text, times, sensors
+  static constexpr std::size_t kTruth = kText + 4 + 5 + 16 + 132;  // text, times, empty sensors
   std::size_t chunk() const { return bytes.size() - 5 - 4; }
 
   /// The same with another 4-byte number at `at` and a good checksum.

@@ -50,7 +50,7 @@ TEST(PushMetrics, JudgesTheEndEffectorFromWhereItWas) {
   for (double t = 0; t < 5; t += 1e-2) {
     TruthFrame truth = ball(t, 0);
     truth.p_WE << 0.2, 0, t > 1.2 && t < 2.5 ? 0.85 : 0.95;
-    truth.state[kArm2] = t > 1.2 && t < 1.4 ? -0.9 : -0.6;
+    truth.state[kArm1 + 1] = t > 1.2 && t < 1.4 ? -0.9 : -0.6;
     metrics.add(truth, {});
   }
   EXPECT_NEAR(metrics.values().at("largest_push_ee_excursion_m"), 0.1, 1e-9);

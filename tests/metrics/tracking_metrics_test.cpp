@@ -68,7 +68,7 @@ RobotLimits limits() {
 TEST(LimitMargins, AreTheSmallestDistancesToEachLimit) {
   LimitMargins margins(limits(), at(0));
   TruthFrame truth;
-  truth.state[kArm3] = 0.25;
+  truth.state[kArm1 + 2] = 0.25;
   truth.state[kPitch] = 0.1;
   truth.state[kPositionDim + kArmRate1] = -5;
   ActuatorCommand command;
@@ -76,7 +76,7 @@ TEST(LimitMargins, AreTheSmallestDistancesToEachLimit) {
   margins.add(truth, command);
   truth.time = at(1);
   truth.state.setZero();
-  truth.state[kArm3] = 1;
+  truth.state[kArm1 + 2] = 1;
   margins.add(truth, ActuatorCommand{});  // easier: does not make a margin larger
   const auto m = margins.values();
   EXPECT_NEAR(m.at("least_wheel_torque_margin_Nm"), 0.5, 1e-12);
@@ -89,7 +89,7 @@ TEST(LimitMargins, AreTheSmallestDistancesToEachLimit) {
 TEST(LimitMargins, AreNegativeBeyondALimit) {
   LimitMargins margins(limits(), at(0));
   TruthFrame truth;
-  truth.state[kArm2] = -2.1;
+  truth.state[kArm1 + 1] = -2.1;
   margins.add(truth, ActuatorCommand{});
   EXPECT_NEAR(margins.values().at("least_arm_position_margin_rad"), -0.1, 1e-12);
 }

@@ -35,7 +35,7 @@ void expectAgreement(const RobotParameters& robot, double friction, double smoot
     for (int i = 0; i < 100; ++i) {
       RandomMotion motion = randomMotion(i);
       const Vector3 force = motion.loads.forces.back().force_W;
-      motion.loads.forces = {{kLink3Body, robot.p_A3E, force}};
+      motion.loads.forces = {{kHandBody, robot.p_A3E, force}};
       const double floor = -friction * std::tanh(motion.ball_spin / smoothing);
       motion.loads.ball_spin_torque = floor;
       PositionVector q;

@@ -65,7 +65,7 @@ TEST(Multibody, WithoutRotorsAgreesWithTheReducedDynamics) {
     for (int i = 0; i < 100; ++i) {
       RandomMotion motion = randomMotion(i);
       const Vector3 force = motion.loads.forces.back().force_W;
-      motion.loads.forces = {{kLink3Body, robot.p_A3E, force}};
+      motion.loads.forces = {{kHandBody, robot.p_A3E, force}};
       PositionVector q;
       q << motion.pose.px, motion.pose.py, motion.pose.yaw, motion.pose.pitch, motion.pose.roll,
           motion.pose.arm;

@@ -84,7 +84,7 @@ TEST(Environment, ListsAScenariosPushes) {
   const std::vector<Push> pushes = readPlantConfig(scenario).pushes;
   ASSERT_EQ(pushes.size(), 2u);
   EXPECT_EQ(pushes[0].p_BP_B, Vector3(0, 0, 0.35));
-  EXPECT_EQ(pushes[1].body, kLink2Body);
+  EXPECT_EQ(pushes[1].body, armBody(1));
 
   const Environment environment(pushes);
   const auto at = [](double s) { return kSimStart + durationFromSeconds(s); };

@@ -94,8 +94,8 @@ Vector3 momentum(const RobotParameters& robot, const Multibody& multibody) {
   };
   add(kBaseBody, robot.baseWithWheels());
   add(kLink1Body, robot.arm[0].inertia);
-  add(kLink2Body, robot.arm[1].inertia);
-  add(kLink3Body, robot.lastLinkWithPayload());
+  add(armBody(1), robot.arm[1].inertia);
+  add(kHandBody, robot.lastLinkWithPayload());
   return sum;
 }
 
