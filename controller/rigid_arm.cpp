@@ -21,7 +21,11 @@ RobotParameters withRigidArm(const RobotParameters& robot, const ArmVector& arm)
     const bool last = i == kArmJointCount - 1;
     const BodyInertia body = last ? robot.lastLinkWithPayload() : link.inertia;
     p_BA += R_BA * link.p_PJ_P;
-    R_BA = R_BA * Eigen::AngleAxisd(arm[i], link.axis).toRotationMatrix();
+    if (link.slides()) {
+      p_BA += arm[i] * (R_BA * link.slide());
+    } else {
+      R_BA = R_BA * Eigen::AngleAxisd(arm[i], link.axis).toRotationMatrix();
+    }
     out.base = composed(out.base, turned(body, R_BA), p_BA);
     out.arm[i].inertia = BodyInertia();
   }

@@ -14,7 +14,12 @@ std::array<BodyPose, 1 + kArmJointCount> bodyPoses(const RobotParameters& robot,
   for (int i = 0; i < kArmJointCount; ++i) {
     const ArmLink& link = robot.arm[i];
     out[i + 1].p_WL = out[i].p_WL + out[i].R_WL * link.p_PJ_P;
-    out[i + 1].R_WL = out[i].R_WL * Eigen::AngleAxisd(x[kArm1 + i], link.axis);
+    if (link.slides()) {
+      out[i + 1].p_WL += x[kArm1 + i] * (out[i].R_WL * link.slide());
+      out[i + 1].R_WL = out[i].R_WL;
+    } else {
+      out[i + 1].R_WL = out[i].R_WL * Eigen::AngleAxisd(x[kArm1 + i], link.axis);
+    }
   }
   return out;
 }

@@ -15,7 +15,12 @@ DynamicsConstants::DynamicsConstants(const RobotParameters& robot) {
   for (int i = 0; i < kArmJointCount; ++i) {
     const ArmLink& link = robot.arm[i];
     const BodyInertia body = i == kArmJointCount - 1 ? robot.lastLinkWithPayload() : link.inertia;
-    arm[i] = {link.p_PJ_P, link.axis, body.p_LLcm_L, secondMoment(body.I_LLcm_L), body.mass};
+    arm[i] = {link.p_PJ_P,
+              link.slides() ? link.slide() : link.axis,
+              link.slides(),
+              body.p_LLcm_L,
+              secondMoment(body.I_LLcm_L),
+              body.mass};
     rigid_arm = rigid_arm && body.mass == 0 && body.I_LLcm_L.isZero(0);
   }
   p_A3E = robot.p_A3E;

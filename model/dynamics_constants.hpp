@@ -11,8 +11,10 @@ struct DynamicsConstants {
   explicit DynamicsConstants(const RobotParameters& robot);
 
   struct Link {
-    Vector3 p_PJ_P;            ///< joint origin in the parent's frame [m]
-    Vector3 axis;              ///< unit vector, the same in parent and link
+    Vector3 p_PJ_P;  ///< joint origin in the parent's frame [m]
+    Vector3 axis;    ///< unit vector, the same in parent and link; of one that slides its
+                     ///< way per angle [m/rad]
+    bool slides;
     Vector3 com;               ///< centre of mass from the joint [m]
     Matrix3 second_moment_cm;  ///< sum of m p p^T about the centre of mass [kg m^2]
     double mass;

@@ -54,7 +54,11 @@ FrameKinematics frameKinematics(const RobotParameters& robot, const RobotFrame& 
   turn(kRoll, bodies[0].R_WL.col(0), p_WK);
   for (int i = 0; i < frame.body; ++i) {
     const BodyPose& link = bodies[static_cast<std::size_t>(i + 1)];
-    turn(kArm1 + i, link.R_WL * robot.arm[i].axis, link.p_WL);
+    if (robot.arm[i].slides()) {
+      out.dpose_dq.col(kArm1 + i).head<3>() = link.R_WL * robot.arm[i].slide();
+    } else {
+      turn(kArm1 + i, link.R_WL * robot.arm[i].axis, link.p_WL);
+    }
   }
   return out;
 }

@@ -53,7 +53,7 @@ class NewtonEuler {
   NewtonEuler(const DynamicsConstants& constants, const Vec8& q, const Velocities& nu)
       : c_(constants), rho_(constants.ratio), G_(constants.spin_inertia.cast<Scalar>()) {
     placeBase(q, nu);
-    goOutward(nu);
+    goOutward(q, nu);
     goInward();
   }
 
@@ -195,15 +195,20 @@ class NewtonEuler {
   }
 
   /// Places and moves each link from its parent.
-  [[gnu::flatten]] void goOutward(const Velocities& nu) {
+  [[gnu::flatten]] void goOutward(const Vec8& q, const Velocities& nu) {
     R_BA3.setIdentity();
     Vec3 origin = Vec3::Zero();
     for (int i = 0; i < kArmJointCount; ++i) {
       const DynamicsConstants::Link& link = c_.arm[i];
       origin += R_BA3 * link.p_PJ_P.template cast<Scalar>();
       const Vec3 axis = R_BA3 * link.axis.template cast<Scalar>();
-      joint[i] = {axis, cross(origin, axis)};
-      R_BA3 = (R_BA3 * rotationAbout(link.axis, sin_arm[i], cos_arm[i])).eval();
+      if (link.slides) {
+        joint[i] = {Vec3::Zero(), axis};
+        origin += q[kArm1 + i] * axis;
+      } else {
+        joint[i] = {axis, cross(origin, axis)};
+        R_BA3 = (R_BA3 * rotationAbout(link.axis, sin_arm[i], cos_arm[i])).eval();
+      }
 
       const Vec3 com = origin + R_BA3 * link.com.template cast<Scalar>();
       const Vec3 first = Scalar(link.mass) * com;

@@ -5,6 +5,9 @@
 namespace ballbot {
 namespace {
 
+static_assert(kWheelCount == 3 && kArmJointCount >= 2 && kArmJointCount <= kMaxArmJoints,
+              "BALLBOT_ARM_JOINTS must be 2 to 7");
+
 /// Inertia of a point of unit mass at p, about the origin.
 Matrix3 pointInertia(const Vector3& p) {
   return p.squaredNorm() * Matrix3::Identity() - p * p.transpose();

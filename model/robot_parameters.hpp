@@ -18,14 +18,20 @@ struct BodyInertia {
 /// `a` and `b` rigidly joined; both given in frames with parallel axes, b's origin at p_AB_A.
 BodyInertia composed(const BodyInertia& a, const BodyInertia& b, const Vector3& p_AB_A);
 
-/// One revolute joint of the arm and the link it carries. At zero angle all link frames are
-/// parallel to B.
+/// One joint of the arm and the link it carries. At zero angles all link frames are parallel to B.
+/// A joint that slides is driven by a pinion on a rack, or a screw, and counts by the angle of
+/// that: its angles, rates and torques are the drive's, as of any other joint.
 struct ArmLink {
   std::string name;
-  Vector3 p_PJ_P = Vector3::Zero();  ///< joint origin in the parent's frame (base: from K) [m]
-  Vector3 axis = Vector3::UnitZ();   ///< unit vector, same in parent and link
-  BodyInertia inertia;               ///< origin at the joint
+  Vector3 p_PJ_P =
+      Vector3::Zero();  ///< joint origin at zero in the parent's frame (base: from K) [m]
+  Vector3 axis = Vector3::UnitZ();          ///< unit vector, same in parent and link
+  BodyInertia inertia;                      ///< origin at the joint
   double lower_limit = 0, upper_limit = 0;  ///< [rad]; see limits.hpp
+  double lead = 0;  ///< of a joint that slides: its way along the axis per angle [m/rad]; else 0
+
+  bool slides() const { return lead > 0; }
+  Vector3 slide() const { return lead * axis; }  ///< way per angle [m/rad]
 };
 
 /// Rigid-body parameters of the robot: what plant, estimator and controller agree on.

@@ -43,6 +43,7 @@ struct RobotFile {
   double wheel_radius = 0, contact_zenith = 0;
   std::array<double, kWheelCount> azimuth{};
   double wheel_friction = kUnlimited;
+  double slide_lead = kSlideLead;
   std::array<double, kArmJointCount> nominal_arm{};
   double wheel_torque_limit = 0, arm_torque_limit = 0;
 
@@ -63,6 +64,10 @@ struct RobotFile {
               "without it, and from 1e6 on, wheels are taken to hold whatever they are asked for"),
           wheel_friction, {kTiny, kUnlimited});
     });
+    v.number(may("slide_lead_m_per_rad",
+                 "way of an arm joint that slides per angle of its drive, behind the gear; such a "
+                 "joint counts by that angle"),
+             slide_lead, {1e-4, 10});
     v.number(must("total_mass_kg", "of all links, a check on the URDF"), total_mass, {kTiny, kInf});
     v.number(may("payload_mass_kg", "point mass at the end-effector"), payload_mass, {0, 100});
     v.vector(must("nominal_arm_rad", "angles of the arm at rest"), nominal_arm);
@@ -72,6 +77,18 @@ struct RobotFile {
              {kTiny, kInf});
   }
 };
+
+/// Whoever has an arm of another size wants another program, not another file.
+void requireArmSize(ConfigReader& in) {
+  if (!in.has("nominal_arm_rad")) return;
+  const std::size_t joints = in.raw("nominal_arm_rad")->items().size();
+  if (joints == kArmJointCount || joints < 2 || joints > kMaxArmJoints) return;
+  throw InputError(
+      fmt::format("{} has {} values, but this program is built for arms of {} joints. "
+                  "docs/robot.md says how to "
+                  "build one for {}: cmake -DBALLBOT_ARM_JOINTS={}",
+                  in.at("nominal_arm_rad"), joints, kArmJointCount, joints, joints));
+}
 
 /// URDF and YAML both say where the wheels are; a robot whose picture and equations differ would
 /// be found out late.
@@ -104,10 +121,11 @@ std::string urdfPath(const ConfigNode& urdf) {
 }
 
 RobotParameters readRobot(ConfigReader& in) {
+  requireArmSize(in);
   RobotFile file;
   readDescribed(in, file);
   const std::string path = urdfPath(*in.raw("urdf"));
-  const UrdfRobot urdf = loadUrdf(path, file.links);
+  const UrdfRobot urdf = loadUrdf(path, file.links, file.slide_lead);
   RobotParameters robot = urdf.parameters;
 
   robot.gravity = file.gravity;

@@ -1,7 +1,7 @@
 #pragma once
 
 // How many wheels and arm joints the robot has that this is compiled for: the size of all that is
-// fixed in the kernels. Set by CMake (BALLBOT_ROBOT_SIZE); who compiles without it gets the shipped
+// fixed in the kernels. Set by CMake (BALLBOT_ARM_JOINTS); who compiles without it gets the shipped
 // robot.
 
 #ifndef BALLBOT_WHEELS

@@ -120,6 +120,8 @@ void readLimit(const UrdfElement& in, UrdfJoint& joint) {
     joint.upper_limit = kUnlimited;
   } else if (joint.type == UrdfJointType::kRevolute && !limit) {
     in.fail("has no <limit>; a revolute joint without limits is continuous");
+  } else if (joint.type == UrdfJointType::kPrismatic && !limit) {
+    in.fail("has no <limit>, which a prismatic joint must have");
   }
   if (!limit) return;
   limit->onlyAttributes({"lower", "upper", "effort", "velocity"});

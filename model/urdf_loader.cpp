@@ -128,6 +128,20 @@ void noteStrangeLimits(const UrdfJoint& joint, std::vector<std::string>& notes) 
   }
 }
 
+double angleOf(double way, double lead) {
+  return std::abs(way) < kUnlimited ? std::clamp(way / lead, -kUnlimited, kUnlimited) : way;
+}
+
+/// What a file says of a drive that slides, as its pinion has it.
+UrdfDrive turning(UrdfDrive drive, double lead) {
+  drive.where += fmt::format(", at {:g} m per rad of its drive,", lead);
+  if (drive.effort) *drive.effort *= lead;
+  if (drive.velocity) *drive.velocity /= lead;
+  if (drive.damping) *drive.damping *= lead * lead;
+  if (drive.dry_friction) *drive.dry_friction *= lead;
+  return drive;
+}
+
 /// @param R_BP  axes of the body that carries the link, at zero angles; becomes the link's own
 void readArmLink(const UrdfTree& tree, const RobotLinks& links, int i, Matrix3& R_BP,
                  UrdfRobot& robot) {
@@ -136,22 +150,25 @@ void readArmLink(const UrdfTree& tree, const RobotLinks& links, int i, Matrix3& 
   link.name = links.arm[at];
   const UrdfMount mount = tree.mount(i == 0 ? links.base : links.arm[at - 1], link.name);
   const UrdfJoint& joint = *mount.joint;
-  requireType(tree, joint, {UrdfJointType::kRevolute, UrdfJointType::kContinuous},
-              "revolute or continuous");
+  requireType(tree, joint,
+              {UrdfJointType::kRevolute, UrdfJointType::kContinuous, UrdfJointType::kPrismatic},
+              "revolute, continuous or prismatic");
+  const bool slides = joint.type == UrdfJointType::kPrismatic;
+  link.lead = slides ? robot.slide_lead : 0;
   link.p_PJ_P = turned(R_BP, mount.X_BL.translation());
   if (!mount.X_BL.linear().isIdentity(0)) R_BP *= mount.X_BL.linear();
   link.axis = turned(R_BP, joint.axis);
   link.inertia = turned(R_BP, tree.body(link.name));
-  link.lower_limit = joint.lower_limit;
-  link.upper_limit = joint.upper_limit;
+  link.lower_limit = slides ? angleOf(joint.lower_limit, link.lead) : joint.lower_limit;
+  link.upper_limit = slides ? angleOf(joint.upper_limit, link.lead) : joint.upper_limit;
   if (!(link.lower_limit < link.upper_limit)) {
     tree.fail(joint.line, fmt::format("joint '{}' of link '{}': lower limit {} must be below upper "
                                       "limit {}",
                                       joint.name, link.name, link.lower_limit, link.upper_limit));
   }
-  robot.drives[kWheelCount + i] = joint.drive;
+  robot.drives[kWheelCount + i] = slides ? turning(joint.drive, link.lead) : joint.drive;
   robot.joints[kWheelCount + i] = joint.name;
-  noteStrangeLimits(joint, robot.notes);
+  if (!slides) noteStrangeLimits(joint, robot.notes);
 }
 
 /// Pose of `child`, which is fixed to `parent`.
@@ -162,7 +179,8 @@ Eigen::Isometry3d readFixedFrame(const UrdfTree& tree, const std::string& parent
   return mount.X_BL;
 }
 
-UrdfRobot parse(const std::string& path, const std::string& text, const RobotLinks& links) {
+UrdfRobot parse(const std::string& path, const std::string& text, const RobotLinks& links,
+                double lead) {
   const UrdfTree tree(readUrdf(path, text), links.bodies(), links.all());
   if (!tree.isRoot(links.base)) {
     tree.fail(tree.link(links.base).line,
@@ -170,6 +188,7 @@ UrdfRobot parse(const std::string& path, const std::string& text, const RobotLin
   }
 
   UrdfRobot robot;
+  robot.slide_lead = lead;
   RobotParameters& p = robot.parameters;
   p.name = tree.name();
   p.ball = readBall(tree, links);
@@ -187,7 +206,7 @@ UrdfRobot parse(const std::string& path, const std::string& text, const RobotLin
 
 }  // namespace
 
-UrdfRobot loadUrdf(const std::string& path, const RobotLinks& links) {
+UrdfRobot loadUrdf(const std::string& path, const RobotLinks& links, double lead) {
   std::ifstream file(path);
   std::stringstream text;
   text << file.rdbuf();
@@ -197,9 +216,9 @@ UrdfRobot loadUrdf(const std::string& path, const RobotLinks& links) {
   static std::map<std::vector<std::string>, UrdfRobot> known;
   const std::lock_guard<std::mutex> lock(guard);
   std::vector<std::string> key = links.all();
-  key.insert(key.end(), {path, text.str()});
+  key.insert(key.end(), {fmt::format("{}", lead), path, text.str()});
   auto found = known.find(key);
-  if (found == known.end()) found = known.emplace(key, parse(path, key.back(), links)).first;
+  if (found == known.end()) found = known.emplace(key, parse(path, key.back(), links, lead)).first;
   return found->second;
 }
 

@@ -9,6 +9,9 @@
 
 namespace ballbot {
 
+/// Where nobody says another one: a pinion of 20 mm radius [m/rad].
+constexpr double kSlideLead = 0.02;
+
 /// What a URDF says about a robot of this kind. Fields of `parameters` that a URDF cannot hold
 /// (gravity, wheel geometry, limits of the controller) keep their defaults.
 struct UrdfRobot {
@@ -17,6 +20,7 @@ struct UrdfRobot {
   std::array<Vector3, kWheelCount> wheel_axle;    ///< unit vectors, in B
   std::array<UrdfDrive, kJointCount> drives;
   std::array<std::string, kJointCount> joints;  ///< their names
+  double slide_lead = 0;                        ///< of those that slide [m/rad]
   std::vector<std::string> notes;               ///< what is allowed and most likely not meant
 };
 
@@ -27,6 +31,7 @@ struct UrdfRobot {
 /// its collision sphere. The same text in the same file is parsed once in a process.
 /// docs/robot.md says more.
 /// @throw InputError naming file, line and link or joint.
-UrdfRobot loadUrdf(const std::string& path, const RobotLinks& links = {});
+/// @param lead  of the drives of joints that slide, whose limits the file has in m [m/rad]
+UrdfRobot loadUrdf(const std::string& path, const RobotLinks& links = {}, double lead = kSlideLead);
 
 }  // namespace ballbot

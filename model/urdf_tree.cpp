@@ -141,8 +141,9 @@ void UrdfTree::merge() {
     if (!joint || bodies_.count(name)) continue;
     if (joint->type != UrdfJointType::kFixed) {
       fail(joint->line, fmt::format("link '{}' hangs on joint '{}' of type {}; only ball, wheels "
-                                    "and arm move, so it must be fixed",
-                                    name, joint->name, toText(joint->type)));
+                                    "and the {} joints of the arm that this program is built for "
+                                    "move, so it must be fixed",
+                                    name, joint->name, toText(joint->type), kArmJointCount));
     }
     BodyInertia part = body_[*at];
     if (part.mass == 0) continue;  // a frame

@@ -40,6 +40,12 @@ WheelLoads WheelLoadModel::at(const StateVector& x, const VelocityVector& dnu,
     const BodyPose& link = poses[j + 1];
     const Vector3 r = link.p_WL - poses[j].p_WL;
     a += alpha.cross(r) + w.cross(w.cross(r));
+    if (robot_.arm[j].slides()) {
+      const Vector3 slide = link.R_WL * robot_.arm[j].slide();
+      a += dnu[kArmRate1 + j] * slide + 2 * nu[kArmRate1 + j] * w.cross(slide);
+      carry(j + 1 == kArmJointCount ? last_link_ : robot_.arm[j].inertia, link.R_WL);
+      continue;
+    }
     const Vector3 axis = link.R_WL * robot_.arm[j].axis;
     alpha += dnu[kArmRate1 + j] * axis + nu[kArmRate1 + j] * w.cross(axis);
     w += nu[kArmRate1 + j] * axis;

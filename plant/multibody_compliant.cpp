@@ -204,9 +204,7 @@ class CompliantMultibody final : public Multibody {
     const auto links = linksWithoutRotors(robot_, options_);
     for (int j = 0; j < kArmJointCount; ++j) {
       const ArmLink& link = robot_.arm[j];
-      bodies_[kLink1Body + j] =
-          MobilizedBody::Pin(bodies_[kBaseBody + j], pinFrame(link.axis, link.p_PJ_P),
-                             toBody(links[j], link.name), pinFrame(link.axis, Vector3::Zero()));
+      bodies_[kLink1Body + j] = armJoint(bodies_[kBaseBody + j], link, toBody(links[j], link.name));
     }
     for (int i = 0; i < kWheelCount; ++i) {
       turning_.push_back(addWheel(bodies_[kBaseBody], robot_, i));

@@ -67,6 +67,7 @@ class ReducedMultibody final : public Multibody {
         ball_inertia_(robot.ball.inertia),
         rolling_mass_(robot.ball.mass +
                       robot.ball.inertia / (robot.ball.radius * robot.ball.radius)) {
+    for (int j = 0; j < kArmJointCount; ++j) lead_[j] = robot.arm[j].lead;
     tree_.finishTopology();
     nq_ = tree_.nq();
     nu_ = tree_.nu();
@@ -226,6 +227,11 @@ class ReducedMultibody final : public Multibody {
       }
       for (int j = 0; j < b; ++j) {
         const Vector3& axis = axis_W_[kWheelCount + j];
+        if (lead_[j] > 0) {
+          Jw[kArmU + j].setZero();
+          Jv[kArmU + j] = lead_[j] * axis;
+          continue;
+        }
         Jw[kArmU + j] = axis;
         Jv[kArmU + j] = axis.cross(p - tree_.body(static_cast<BodyIndex>(kLink1Body + j)).p_WL);
       }
@@ -262,7 +268,7 @@ class ReducedMultibody final : public Multibody {
       ydot[rotorAngles() + i] = joints_.rotor_velocity[i];
       ydot[rotorRates() + i] = loads.rotor_torque[i] / reflectedInertia(i) -
                                axis_W_[i].dot(alpha) / options_.gear_ratio[i];
-      if (i < kWheelCount) continue;
+      if (i < kWheelCount || lead_[i - kWheelCount] > 0) continue;
       alpha += udot[kArmU + i - kWheelCount] * axis_W_[i] +
                joints_.velocity[i] * tree_.body(mounts_[i].parent).w_WL_W.cross(axis_W_[i]);
     }
@@ -276,6 +282,7 @@ class ReducedMultibody final : public Multibody {
   std::array<BodyInertia, 1 + kArmJointCount> bodies_;
   RobotTree tree_;
   WheelRolling rolling_;
+  std::array<double, kArmJointCount> lead_;  ///< of arm joints that slide; else 0 [m/rad]
   std::array<ActuatorMount, kJointCount> mounts_;
   double wheel_inertia_, ball_inertia_, rolling_mass_;
   int nq_ = 0, nu_ = 0;

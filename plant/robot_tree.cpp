@@ -43,6 +43,41 @@ class HorizontalMobilizer : public SimTK::MobilizedBody::Custom::Implementation 
   }
 };
 
+/// Slides along the z axis that its frames share, by so much per angle.
+class SlideMobilizer final : public SimTK::MobilizedBody::Custom::Implementation {
+ public:
+  SlideMobilizer(SimTK::SimbodyMatterSubsystem& matter, double lead)
+      : Implementation(matter, 1, 1, 0), lead_(lead) {}
+  Implementation* clone() const override { return new SlideMobilizer(*this); }
+  SimTK::Transform calcMobilizerTransformFromQ(const SimTK::State&, int,
+                                               const Real* q) const override {
+    return {Vec3(0, 0, lead_ * q[0])};
+  }
+  SpatialVec multiplyByHMatrix(const SimTK::State&, int, const Real* u) const override {
+    return {Vec3(0), Vec3(0, 0, lead_ * u[0])};
+  }
+  void multiplyByHTranspose(const SimTK::State&, const SpatialVec& F, int, Real* f) const override {
+    f[0] = lead_ * F[1][2];
+  }
+  SpatialVec multiplyByHDotMatrix(const SimTK::State&, int, const Real*) const override {
+    return {Vec3(0), Vec3(0)};
+  }
+  void multiplyByHDotTranspose(const SimTK::State&, const SpatialVec&, int,
+                               Real* f) const override {
+    f[0] = 0;
+  }
+  void setQToFitTransform(const SimTK::State&, const SimTK::Transform& X, int,
+                          Real* q) const override {
+    q[0] = X.p()[2] / lead_;
+  }
+  void setUToFitVelocity(const SimTK::State&, const SpatialVec& V, int, Real* u) const override {
+    u[0] = V[1][2] / lead_;
+  }
+
+ private:
+  double lead_;
+};
+
 /// A library built with NDEBUG does not look, so we do.
 void requireRigidBody(const BodyInertia& b, const std::string& name) {
   const Vector3 m = Eigen::SelfAdjointEigenSolver<Matrix3>(b.I_LLcm_L).eigenvalues();  // rising
@@ -81,6 +116,16 @@ SimTK::Transform pinFrame(const Vector3& axis, const Vector3& p) {
   return {SimTK::Rotation(SimTK::UnitVec3(toSimTK(axis)), SimTK::ZAxis), toSimTK(p)};
 }
 
+SimTK::MobilizedBody armJoint(SimTK::MobilizedBody& parent, const ArmLink& link,
+                              const SimTK::Body& body) {
+  const SimTK::Transform inboard = pinFrame(link.axis, link.p_PJ_P);
+  const SimTK::Transform outboard = pinFrame(link.axis, Vector3::Zero());
+  if (!link.slides()) return SimTK::MobilizedBody::Pin(parent, inboard, body, outboard);
+  SimTK::SimbodyMatterSubsystem& matter = parent.updMatterSubsystem();
+  return SimTK::MobilizedBody::Custom(parent, new SlideMobilizer(matter, link.lead), inboard, body,
+                                      outboard);
+}
+
 BodyInertia without(const BodyInertia& whole, BodyInertia part, const Vector3& p_WP) {
   part.mass = -part.mass;
   part.I_LLcm_L = -part.I_LLcm_L;
@@ -104,9 +149,7 @@ RobotTree::RobotTree(const RobotParameters& robot, const BodyInertia& base,
   bodies_[kBaseBody] = SimTK::MobilizedBody::Ball(carriage, toBody(base, "the base"));
   for (int j = 0; j < kArmJointCount; ++j) {
     const ArmLink& link = robot.arm[j];
-    bodies_[kLink1Body + j] = SimTK::MobilizedBody::Pin(
-        bodies_[kBaseBody + j], pinFrame(link.axis, link.p_PJ_P), toBody(links[j], link.name),
-        pinFrame(link.axis, Vector3::Zero()));
+    bodies_[kLink1Body + j] = armJoint(bodies_[kBaseBody + j], link, toBody(links[j], link.name));
   }
   if (ball_spin) {
     rolling.I_LLcm_L = robot.ball.inertia * Matrix3::Identity();
@@ -119,7 +162,8 @@ RobotTree::RobotTree(const RobotParameters& robot, const BodyInertia& base,
   weight_[kBaseBody] = {whole_base.mass, whole_base.p_LLcm_L};
   for (int j = 0; j < kArmJointCount; ++j) {
     const BodyInertia& link = robot.arm[j].inertia;
-    arm_axis_[j] = robot.arm[j].axis;
+    arm_slides_[j] = robot.arm[j].slides();
+    arm_axis_[j] = arm_slides_[j] ? robot.arm[j].slide() : robot.arm[j].axis;
     weight_[kLink1Body + j] = {link.mass, link.p_LLcm_L};
   }
   const BodyInertia last = robot.lastLinkWithPayload();
@@ -250,7 +294,11 @@ Vector3 RobotTree::carriedMomentum(const double* u) const {
     if (b > kBaseBody) {
       const int j = b - kLink1Body;
       v += w.cross(motion_[b].p_WL - motion_[b - 1].p_WL);
-      w += u[kArmU + j] * (motion_[b].R_WL * arm_axis_[j]);
+      if (arm_slides_[j]) {
+        v += u[kArmU + j] * (motion_[b].R_WL * arm_axis_[j]);
+      } else {
+        w += u[kArmU + j] * (motion_[b].R_WL * arm_axis_[j]);
+      }
     }
     momentum += weight_[b].mass * (v + w.cross(motion_[b].R_WL * weight_[b].p_LLcm_L));
   }

@@ -20,6 +20,10 @@ SimTK::Body toBody(const BodyInertia& inertia, const std::string& name);
 /// Frame whose z axis is `axis`, at `p`: what a pin joint turns about.
 SimTK::Transform pinFrame(const Vector3& axis, const Vector3& p);
 
+/// The joint of an arm link, its coordinate the joint's angle.
+SimTK::MobilizedBody armJoint(SimTK::MobilizedBody& parent, const ArmLink& link,
+                              const SimTK::Body& body);
+
 /// `whole` without `part`, whose origin is at p_WP in whole's frame; axes are parallel.
 BodyInertia without(const BodyInertia& whole, BodyInertia part, const Vector3& p_WP);
 
@@ -95,7 +99,8 @@ class RobotTree {
     Vector3 p_LLcm_L = Vector3::Zero();
   };
   std::array<Weight, kBodyCount> weight_;         ///< wheels and rotors with their carrier
-  std::array<Vector3, kArmJointCount> arm_axis_;  ///< in the link's own axes
+  std::array<Vector3, kArmJointCount> arm_axis_;  ///< in the link's own axes; or its way per angle
+  std::array<bool, kArmJointCount> arm_slides_;
   std::array<BodyMotion, kBodyCount> motion_;
   BaseMotion base_motion_;
   SimTK::Vector mobility_forces_;

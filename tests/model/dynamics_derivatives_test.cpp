@@ -4,6 +4,7 @@
 
 #include "model/newton_euler.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/model/sliding_robot.hpp"
 
 namespace ballbot {
 namespace {
@@ -39,48 +40,52 @@ Eigen::Matrix<double, 8, 16> residualByComplexStep(const DynamicsConstants& cons
 }
 
 TEST(DynamicsDerivatives, AgreeWithTheComplexStep) {
-  const RobotParameters robot = exampleRobot();
-  const ReducedDynamics dynamics(robot);
-  const DynamicsConstants constants(robot);
-  for (int k = 0; k < kCases; ++k) {
-    const RandomCase c = randomCase(k);
-    ReducedDynamics::Linearization lin;
-    const Vector3 moment = momentOf(c);
-    dynamics.linearize(c.x, c.tau, c.lambda, lin, &moment);
-    const auto residual = residualByComplexStep(constants, c, lin.f.tail<8>());
-    const MassMatrix M = dynamics.massMatrix(c.x.head<8>());
-    const Eigen::Matrix<double, 8, 16> error = M * lin.df_dx.bottomRows<8>() + residual;
-    EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-12 * (1 + residual.cwiseAbs().maxCoeff()))
-        << "case " << k;
+  for (const RobotParameters& shape : {exampleRobot(), withASlide(exampleRobot())}) {
+    const RobotParameters robot = shape;
+    const ReducedDynamics dynamics(robot);
+    const DynamicsConstants constants(robot);
+    for (int k = 0; k < kCases; ++k) {
+      const RandomCase c = randomCase(k);
+      ReducedDynamics::Linearization lin;
+      const Vector3 moment = momentOf(c);
+      dynamics.linearize(c.x, c.tau, c.lambda, lin, &moment);
+      const auto residual = residualByComplexStep(constants, c, lin.f.tail<8>());
+      const MassMatrix M = dynamics.massMatrix(c.x.head<8>());
+      const Eigen::Matrix<double, 8, 16> error = M * lin.df_dx.bottomRows<8>() + residual;
+      EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-12 * (1 + residual.cwiseAbs().maxCoeff()))
+          << "case " << k;
+    }
   }
 }
 
 // Central differences, extrapolated twice (Richardson): error of order h^6.
 TEST(DynamicsDerivatives, AgreeWithExtrapolatedDifferences) {
-  const ReducedDynamics dynamics(exampleRobot());
-  for (int k = 0; k < kCases; ++k) {
-    const RandomCase c = randomCase(k);
-    ReducedDynamics::Linearization lin;
-    dynamics.linearize(c.x, c.tau, c.lambda, lin);
-    const double scale = 1 + lin.df_dx.cwiseAbs().maxCoeff();
+  for (const RobotParameters& shape : {exampleRobot(), withASlide(exampleRobot())}) {
+    const ReducedDynamics dynamics(shape);
+    for (int k = 0; k < kCases; ++k) {
+      const RandomCase c = randomCase(k);
+      ReducedDynamics::Linearization lin;
+      dynamics.linearize(c.x, c.tau, c.lambda, lin);
+      const double scale = 1 + lin.df_dx.cwiseAbs().maxCoeff();
 
-    const StateVector f = dynamics.derivative(c.x, c.tau, c.lambda);
-    EXPECT_LT((lin.f - f).norm(), 1e-12 * (1 + f.norm()));
-    for (int i = 0; i < kStateDim; ++i) {
-      const auto slope = [&](double h) -> StateVector {
-        StateVector plus = c.x, minus = c.x;
-        plus[i] += h;
-        minus[i] -= h;
-        return (dynamics.derivative(plus, c.tau, c.lambda) -
-                dynamics.derivative(minus, c.tau, c.lambda)) /
-               (2 * h);
-      };
-      const double h = 8e-3;
-      const StateVector d1 = slope(h), d2 = slope(h / 2), d4 = slope(h / 4);
-      const StateVector once = (4 * d2 - d1) / 3, twice = (4 * d4 - d2) / 3;
-      const StateVector expected = (16 * twice - once) / 15;
-      EXPECT_LT((lin.df_dx.col(i) - expected).norm(), 1e-9 * scale)
-          << "case " << k << " column " << i;
+      const StateVector f = dynamics.derivative(c.x, c.tau, c.lambda);
+      EXPECT_LT((lin.f - f).norm(), 1e-12 * (1 + f.norm()));
+      for (int i = 0; i < kStateDim; ++i) {
+        const auto slope = [&](double h) -> StateVector {
+          StateVector plus = c.x, minus = c.x;
+          plus[i] += h;
+          minus[i] -= h;
+          return (dynamics.derivative(plus, c.tau, c.lambda) -
+                  dynamics.derivative(minus, c.tau, c.lambda)) /
+                 (2 * h);
+        };
+        const double h = 8e-3;
+        const StateVector d1 = slope(h), d2 = slope(h / 2), d4 = slope(h / 4);
+        const StateVector once = (4 * d2 - d1) / 3, twice = (4 * d4 - d2) / 3;
+        const StateVector expected = (16 * twice - once) / 15;
+        EXPECT_LT((lin.df_dx.col(i) - expected).norm(), 1e-9 * scale)
+            << "case " << k << " column " << i;
+      }
     }
   }
 }
@@ -115,16 +120,18 @@ TEST(DynamicsDerivatives, AgreeWithUnitStepsOfTheInputs) {
 }
 
 TEST(DynamicsDerivatives, AMomentGivesThePowerOfItsTurning) {
-  const ReducedDynamics dynamics(exampleRobot());
-  for (int k = 0; k < 20; ++k) {
-    const RandomCase c = randomCase(k);
-    const Vector3 moment = momentOf(c);
-    const StateVector with = dynamics.derivative(c.x, c.tau, c.lambda, &moment);
-    const StateVector without = dynamics.derivative(c.x, c.tau, c.lambda);
-    const VelocityVector nu = c.x.tail<kVelocityDim>();
-    const double power =
-        nu.dot(dynamics.massMatrix(c.x.head<8>()) * (with - without).tail<kVelocityDim>());
-    EXPECT_NEAR(power, moment.dot(dynamics.endEffector(c.x).w_WE_W), 1e-10);
+  for (const RobotParameters& shape : {exampleRobot(), withASlide(exampleRobot())}) {
+    const ReducedDynamics dynamics(shape);
+    for (int k = 0; k < 20; ++k) {
+      const RandomCase c = randomCase(k);
+      const Vector3 moment = momentOf(c);
+      const StateVector with = dynamics.derivative(c.x, c.tau, c.lambda, &moment);
+      const StateVector without = dynamics.derivative(c.x, c.tau, c.lambda);
+      const VelocityVector nu = c.x.tail<kVelocityDim>();
+      const double power =
+          nu.dot(dynamics.massMatrix(c.x.head<8>()) * (with - without).tail<kVelocityDim>());
+      EXPECT_NEAR(power, moment.dot(dynamics.endEffector(c.x).w_WE_W), 1e-10);
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -19,9 +20,9 @@ class EditedRobot : public ::testing::Test {
  protected:
   void SetUp() override {
     namespace fs = std::filesystem;
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              ("ballbot_urdf_" + std::to_string(getpid()) + "_" + test->name());
+    std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::replace(name.begin(), name.end(), '/', '_');  // of a parameter
+    folder_ = fs::temp_directory_path() / ("ballbot_urdf_" + std::to_string(getpid()) + "_" + name);
     fs::create_directories(folder_);
     for (const auto& entry : fs::directory_iterator(fs::path(robotFile()).parent_path())) {
       fs::copy(entry.path(), folder_ / entry.path().filename(),

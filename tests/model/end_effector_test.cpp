@@ -2,6 +2,7 @@
 
 #include "model/frames.hpp"
 #include "tests/model/robot_fixture.hpp"
+#include "tests/model/sliding_robot.hpp"
 
 namespace ballbot {
 namespace {
@@ -9,7 +10,8 @@ namespace {
 constexpr int kCases = 100;
 using PoseChange = Eigen::Matrix<double, 6, 1>;
 
-class EndEffectorTest : public ::testing::Test {
+/// The shipped robot, and one whose second arm joint slides.
+class EndEffectorTest : public ::testing::TestWithParam<bool> {
  protected:
   /// Central differences of pose and twist along a change of the state, extrapolated once.
   void difference(const StateVector& x, const StateVector& along, PoseChange& pose,
@@ -31,10 +33,10 @@ class EndEffectorTest : public ::testing::Test {
     twist = (4 * twist_half - twist) / 3;
   }
 
-  ReducedDynamics dynamics{exampleRobot()};
+  ReducedDynamics dynamics{GetParam() ? withASlide(exampleRobot()) : exampleRobot()};
 };
 
-TEST_F(EndEffectorTest, VelocityIsTheDerivativeOfThePose) {
+TEST_P(EndEffectorTest, VelocityIsTheDerivativeOfThePose) {
   for (int i = 0; i < kCases; ++i) {
     const RandomCase c = randomCase(i);
     StateVector along = StateVector::Zero();
@@ -47,7 +49,7 @@ TEST_F(EndEffectorTest, VelocityIsTheDerivativeOfThePose) {
   }
 }
 
-TEST_F(EndEffectorTest, JacobiansAgreeWithDifferences) {
+TEST_P(EndEffectorTest, JacobiansAgreeWithDifferences) {
   for (int i = 0; i < kCases; ++i) {
     const RandomCase c = randomCase(i);
     ReducedDynamics::EndEffectorLinearization lin;
@@ -63,7 +65,7 @@ TEST_F(EndEffectorTest, JacobiansAgreeWithDifferences) {
   }
 }
 
-TEST_F(EndEffectorTest, JacobianTakesVelocityToTwist) {
+TEST_P(EndEffectorTest, JacobianTakesVelocityToTwist) {
   const RandomCase c = randomCase(0);
   const auto E = dynamics.endEffector(c.x);
   const PoseChange twist = dynamics.endEffectorJacobian(c.x.head<8>()) * c.x.tail<8>();
@@ -71,7 +73,7 @@ TEST_F(EndEffectorTest, JacobianTakesVelocityToTwist) {
   EXPECT_LT((twist.tail<3>() - E.w_WE_W).norm(), 1e-14);
 }
 
-TEST_F(EndEffectorTest, ComesWithTheDynamicsBitForBit) {
+TEST_P(EndEffectorTest, ComesWithTheDynamicsBitForBit) {
   const RandomCase c = randomCase(0);
   ReducedDynamics::Linearization alone, together;
   ReducedDynamics::EndEffectorLinearization E_alone, E_together;
@@ -83,7 +85,11 @@ TEST_F(EndEffectorTest, ComesWithTheDynamicsBitForBit) {
   EXPECT_EQ(E_alone.value.p_WE, E_together.value.p_WE);
 }
 
-TEST_F(EndEffectorTest, IsLevelAtTheNominalArmPose) {
+INSTANTIATE_TEST_SUITE_P(Turning, EndEffectorTest, ::testing::Values(false));
+INSTANTIATE_TEST_SUITE_P(Sliding, EndEffectorTest, ::testing::Values(true));
+
+TEST(EndEffector, IsLevelAtTheNominalArmPose) {
+  const ReducedDynamics dynamics(exampleRobot());
   StateVector x = StateVector::Zero();
   x.segment<3>(kArm1) = dynamics.robot().nominal_arm;
   const auto E = dynamics.endEffector(x);

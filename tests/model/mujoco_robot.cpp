@@ -36,10 +36,10 @@ std::string modelXml(const RobotParameters& robot) {
   for (int i = kArmJointCount - 1; i >= 0; --i) {
     const ArmLink& link = robot.arm[i];
     const bool last = i == kArmJointCount - 1;
-    arm = fmt::format("<body name='arm_{}' pos='{}'>{}<joint name='arm_{}' axis='{}'/>{}</body>", i,
-                      vectorText(link.p_PJ_P),
-                      inertial(last ? robot.lastLinkWithPayload() : link.inertia), i,
-                      vectorText(link.axis), arm);
+    arm = fmt::format(
+        "<body name='arm_{}' pos='{}'>{}<joint name='arm_{}' type='{}' axis='{}'/>{}</body>", i,
+        vectorText(link.p_PJ_P), inertial(last ? robot.lastLinkWithPayload() : link.inertia), i,
+        link.slides() ? "slide" : "hinge", vectorText(link.axis), arm);
   }
   std::string wheels;
   for (int i = 0; i < kWheelCount; ++i) {
@@ -85,11 +85,9 @@ class MujocoRobot::Impl {
     if (model_->nv != kBodyDofs) throw std::runtime_error("unexpected number of velocities");
     ball_ = dof("ball");
     base_ = dof("base");
-    for (int i = 0; i < 3; ++i) {
-      wheel_[i] = dof(fmt::format("wheel_{}", i));
-      arm_[i] = dof(fmt::format("arm_{}", i));
-    }
-    last_link_ = mj_name2id(model_, mjOBJ_BODY, "arm_2");
+    for (int i = 0; i < kWheelCount; ++i) wheel_[i] = dof(fmt::format("wheel_{}", i));
+    for (int i = 0; i < kArmJointCount; ++i) arm_[i] = dof(fmt::format("arm_{}", i));
+    last_link_ = mj_name2id(model_, mjOBJ_BODY, fmt::format("arm_{}", kArmJointCount - 1).c_str());
   }
   ~Impl() {
     mj_deleteData(data_);
@@ -110,7 +108,7 @@ class MujocoRobot::Impl {
     place("base", q, orientation);
     for (int i = 0; i < kArmJointCount; ++i) {
       const int joint = mj_name2id(model_, mjOBJ_JOINT, fmt::format("arm_{}", i).c_str());
-      data_->qpos[model_->jnt_qposadr[joint]] = q[kArm1 + i];
+      data_->qpos[model_->jnt_qposadr[joint]] = perAngle(i) * q[kArm1 + i];
     }
 
     Eigen::Matrix<double, kBodyDofs, kVelocities> A;  // all velocities = A nu
@@ -130,7 +128,9 @@ class MujocoRobot::Impl {
     const Eigen::Map<const FullVector> bias(data_->qfrc_bias);
     FullVector applied = FullVector::Zero();
     for (int i = 0; i < kWheelCount; ++i) applied[wheel_[i]] = tau[i];
-    for (int i = 0; i < kArmJointCount; ++i) applied[arm_[i]] = tau[kWheelCount + i];
+    for (int i = 0; i < kArmJointCount; ++i) {
+      applied[arm_[i]] = tau[kWheelCount + i] / perAngle(i);
+    }
     applied[ball_ + 5] = floor_torque;
     PointJacobian J;
     const Vector3 p = endEffectorPosition();
@@ -150,6 +150,9 @@ class MujocoRobot::Impl {
   int dof(const std::string& joint) const {
     return model_->jnt_dofadr[mj_name2id(model_, mjOBJ_JOINT, joint.c_str())];
   }
+
+  /// Of MuJoCo's coordinate of an arm joint: it counts what slides in metres.
+  double perAngle(int i) const { return robot_.arm[i].slides() ? robot_.arm[i].lead : 1; }
 
   void place(const char* joint, const PositionVector& q, const Eigen::Quaterniond& orientation) {
     double* qpos = data_->qpos + model_->jnt_qposadr[mj_name2id(model_, mjOBJ_JOINT, joint)];
@@ -185,7 +188,7 @@ class MujocoRobot::Impl {
     for (int i = 0; i < kWheelCount; ++i) {
       v[wheel_[i]] = wheelRate(i, ballRateInBase(nu), nu.segment<3>(kOmegaX));
     }
-    for (int i = 0; i < kArmJointCount; ++i) v[arm_[i]] = nu[kArmRate1 + i];
+    for (int i = 0; i < kArmJointCount; ++i) v[arm_[i]] = perAngle(i) * nu[kArmRate1 + i];
     return v;
   }
 

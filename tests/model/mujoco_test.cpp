@@ -12,8 +12,8 @@ void expectEqualAccelerations(const RobotParameters& robot) {
   MujocoRobot mujoco(robot);
   for (int i = 0; i < 100; ++i) {
     const RandomCase c = randomCase(i);
-    const PositionVector q = c.x.head<8>();
-    const VelocityVector nu = c.x.tail<8>();
+    const PositionVector q = c.x.head<kPositionDim>();
+    const VelocityVector nu = c.x.tail<kVelocityDim>();
     const VelocityVector expected = mujoco.acceleration(q, nu, c.tau, c.lambda);
     const VelocityVector got = dynamics.acceleration(q, nu, c.tau, c.lambda);
     EXPECT_LT((got - expected).norm(), 1e-9 * expected.norm()) << "case " << i;
@@ -26,9 +26,9 @@ void expectEqualAccelerationsOfASpinningBall(const RobotParameters& robot) {
   MujocoRobot mujoco(robot);
   for (int i = 0; i < 100; ++i) {
     const RandomCase c = randomCase(i);
-    const PositionVector q = c.x.head<8>();
+    const PositionVector q = c.x.head<kPositionDim>();
     SpinningVelocityVector nu;
-    nu << c.x.tail<8>(), 0.3 * c.tau[5];
+    nu << c.x.tail<kVelocityDim>(), 0.3 * c.tau[5];
     const double floor_torque = 0.1 * c.tau[0];
     const auto expected = mujoco.acceleration(q, nu, c.tau, c.lambda, floor_torque);
     const auto got = dynamics.acceleration(q, nu, c.tau, c.lambda, floor_torque);
@@ -63,6 +63,19 @@ TEST(Mujoco, GivesTheSameAccelerationsForALopsidedRobot) {
   robot.p_A3E = Vector3(0.05, 0.02, 0.35);
   expectEqualAccelerations(robot);
   expectEqualAccelerationsOfASpinningBall(robot);
+}
+
+/// Of each joint in turn, and of all of them: a lift, a telescope, a gantry.
+TEST(Mujoco, GivesTheSameAccelerationsOfArmsThatSlide) {
+  for (int slides = 1; slides < 8; ++slides) {
+    RobotParameters robot = exampleRobot();
+    for (int i = 0; i < kArmJointCount; ++i) {
+      if (slides >> i & 1) robot.arm[i].lead = 0.05 * (1 + i);
+      robot.arm[i].axis = (robot.arm[i].axis + Vector3(0.2, -0.1, 0.3)).normalized();
+    }
+    expectEqualAccelerations(robot);
+    expectEqualAccelerationsOfASpinningBall(robot);
+  }
 }
 
 }  // namespace

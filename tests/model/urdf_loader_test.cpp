@@ -82,10 +82,34 @@ TEST_F(EditedRobot, UnknownJointTypeIsNamed) {
 }
 
 TEST_F(EditedRobot, UnsuitableJointTypeIsNamed) {
-  editUrdf("arm_2_joint", "revolute", "prismatic");
+  editUrdf("arm_2_joint", "revolute", "planar");
   EXPECT_EQ(error(),
-            "ballbot.urdf:329: joint 'arm_2_joint' of link 'arm_2' is prismatic, must be revolute "
-            "or continuous");
+            "ballbot.urdf:329: joint 'arm_2_joint' of link 'arm_2' is planar, must be revolute, "
+            "continuous or prismatic");
+}
+
+TEST_F(EditedRobot, WhatSlidesCountsByTheAngleOfItsDrive) {
+  const std::string limit = "lower=\"-2.0\" upper=\"2.0\" effort=\"40\" velocity=\"12\"";
+  editUrdf("arm_2_joint", "revolute", "prismatic");
+  editUrdf("arm_2_joint", limit, "lower=\"-0.1\" upper=\"0.3\" effort=\"800\" velocity=\"0.6\"");
+  edit("ballbot.yaml", "", "payload_mass_kg: 0", "slide_lead_m_per_rad: 0.05\npayload_mass_kg: 0");
+  const RobotParameters robot = read();
+  EXPECT_TRUE(robot.arm[1].slides());
+  EXPECT_FALSE(robot.arm[0].slides());
+  EXPECT_EQ(robot.arm[1].lead, 0.05);
+  EXPECT_EQ(robot.arm[1].lower_limit, -0.1 / 0.05);
+  EXPECT_EQ(robot.arm[1].upper_limit, 0.3 / 0.05);
+  edit("ballbot.yaml", "", "slide_lead_m_per_rad: 0.05", "slide_lead_m_per_rad: 0.02");
+  EXPECT_THAT(error(), AllOf(HasSubstr("joint 'arm_2_joint', at 0.02 m per rad of its drive, has "
+                                       "effort [N m] = 16, but"),
+                             HasSubstr("peak_torque_Nm is 40")));
+}
+
+TEST_F(EditedRobot, WhatSlidesHasAnEnd) {
+  editUrdf("arm_2_joint", "revolute", "prismatic");
+  editUrdf("arm_2_joint", "<limit lower=\"-2.0\" upper=\"2.0\" effort=\"40\" velocity=\"12\"/>",
+           "");
+  EXPECT_THAT(error(), HasSubstr("has no <limit>, which a prismatic joint must have"));
 }
 
 TEST_F(EditedRobot, WrongParentIsNamed) {
@@ -173,6 +197,14 @@ TEST_F(EditedRobot, WheelGeometryMustAgreeWithTheYaml) {
                                  "0.000000, 0.133643)"));
 }
 
+TEST_F(EditedRobot, AnArmOfAnotherSizeNamesTheBuild) {
+  edit("ballbot.yaml", "nominal_arm_rad", "[0,", "[0, 0,");
+  EXPECT_THAT(error(),
+              AllOf(HasSubstr("nominal_arm_rad has 4 values, but this program is built for "
+                              "arms of 3 joints"),
+                    HasSubstr("cmake -DBALLBOT_ARM_JOINTS=4")));
+}
+
 TEST_F(EditedRobot, NominalArmMustBeWithinTheLimits) {
   edit("ballbot.yaml", "nominal_arm_rad", "-0.6", "-2.5");
   EXPECT_THAT(error(),
@@ -249,8 +281,10 @@ TEST_F(EditedRobot, PartOnAMovingJointIsRefused) {
   for (const char* parent : {"base", "end_effector"}) {
     SetUp();
     addToUrdf(partXml("flag", parent, 0.1, 1e-5, "continuous"));
-    EXPECT_THAT(error(), HasSubstr("link 'flag' hangs on joint 'flag_joint' of type continuous; "
-                                   "only ball, wheels and arm move, so it must be fixed"));
+    EXPECT_THAT(error(),
+                HasSubstr("link 'flag' hangs on joint 'flag_joint' of type continuous; "
+                          "only ball, wheels and the 3 joints of the arm that this program "
+                          "is built for move, so it must be fixed"));
   }
 }
 

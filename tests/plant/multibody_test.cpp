@@ -10,6 +10,7 @@
 #include "plant/integrator.hpp"
 #include "support/plant_fixture.hpp"
 #include "support/structure_a.hpp"
+#include "tests/model/sliding_robot.hpp"
 
 namespace ballbot {
 namespace {
@@ -57,40 +58,44 @@ TEST(Multibody, AgreesWithAFreeBallOnAFloor) {
 }
 
 TEST(Multibody, WithoutRotorsAgreesWithTheReducedDynamics) {
-  RobotParameters robot = exampleRobot();
-  robot.payload_mass = 0.7;
-  const ReducedDynamics model(robot);
-  for (const auto structure : {kFull, kReduced}) {
-    const auto plant = makeMultibody(robot, multibodyOptions(structure, false));
-    for (int i = 0; i < 100; ++i) {
-      RandomMotion motion = randomMotion(i);
-      const Vector3 force = motion.loads.forces.back().force_W;
-      motion.loads.forces = {{kHandBody, robot.p_A3E, force}};
-      PositionVector q;
-      q << motion.pose.px, motion.pose.py, motion.pose.yaw, motion.pose.pitch, motion.pose.roll,
-          motion.pose.arm;
-      const VelocityVector expected =
-          model.acceleration(q, motion.nu, motion.loads.joint_torque, force);
-      const Accelerations got = accelerations(*plant, motion);
-      const Matrix3 R = rotationFromYawPitchRoll(q[kYaw], q[kPitch], q[kRoll]);
-      VelocityVector nu_dot;
-      nu_dot << got.a_WK_W.head<2>(), R.transpose() * got.alpha_WB_W, got.joints.tail<3>();
-      EXPECT_LT((nu_dot - expected).norm(), 1e-9 * expected.norm()) << "state " << i;
+  for (const RobotParameters& shape : {exampleRobot(), withASlide(exampleRobot())}) {
+    RobotParameters robot = shape;
+    robot.payload_mass = 0.7;
+    const ReducedDynamics model(robot);
+    for (const auto structure : {kFull, kReduced}) {
+      const auto plant = makeMultibody(robot, multibodyOptions(structure, false));
+      for (int i = 0; i < 100; ++i) {
+        RandomMotion motion = randomMotion(i);
+        const Vector3 force = motion.loads.forces.back().force_W;
+        motion.loads.forces = {{kHandBody, robot.p_A3E, force}};
+        PositionVector q;
+        q << motion.pose.px, motion.pose.py, motion.pose.yaw, motion.pose.pitch, motion.pose.roll,
+            motion.pose.arm;
+        const VelocityVector expected =
+            model.acceleration(q, motion.nu, motion.loads.joint_torque, force);
+        const Accelerations got = accelerations(*plant, motion);
+        const Matrix3 R = rotationFromYawPitchRoll(q[kYaw], q[kPitch], q[kRoll]);
+        VelocityVector nu_dot;
+        nu_dot << got.a_WK_W.head<2>(), R.transpose() * got.alpha_WB_W, got.joints.tail<3>();
+        EXPECT_LT((nu_dot - expected).norm(), 1e-9 * expected.norm()) << "state " << i;
+      }
     }
   }
 }
 
 TEST(Multibody, WheelsAndRotorsMayBeBodiesOrGyrostats) {
-  const RobotParameters robot = exampleRobot();
-  for (const bool rotors : {false, true}) {
-    for (const bool ball_spin : {false, true}) {
-      const auto full = makeMultibody(robot, multibodyOptions(kFull, rotors, ball_spin));
-      const auto reduced = makeMultibody(robot, multibodyOptions(kReduced, rotors, ball_spin));
-      for (int i = 0; i < 30; ++i) {
-        const Accelerations a = accelerations(*full, randomMotion(i));
-        const Accelerations b = accelerations(*reduced, randomMotion(i));
-        EXPECT_LT(relativeDifference(a, b), 1e-11);
-        EXPECT_LT((a.rotors - b.rotors).norm(), 1e-11 * b.rotors.norm());
+  for (const RobotParameters& shape : {exampleRobot(), withASlide(exampleRobot())}) {
+    const RobotParameters robot = shape;
+    for (const bool rotors : {false, true}) {
+      for (const bool ball_spin : {false, true}) {
+        const auto full = makeMultibody(robot, multibodyOptions(kFull, rotors, ball_spin));
+        const auto reduced = makeMultibody(robot, multibodyOptions(kReduced, rotors, ball_spin));
+        for (int i = 0; i < 30; ++i) {
+          const Accelerations a = accelerations(*full, randomMotion(i));
+          const Accelerations b = accelerations(*reduced, randomMotion(i));
+          EXPECT_LT(relativeDifference(a, b), 1e-11);
+          EXPECT_LT((a.rotors - b.rotors).norm(), 1e-11 * b.rotors.norm());
+        }
       }
     }
   }
@@ -221,47 +226,49 @@ TEST(Multibody, FullStructureKeepsItsEnergy) {
 }
 
 TEST(Multibody, EnergyGrowsByTheWorkOfTheLoads) {
-  const RobotParameters robot = exampleRobot();
-  for (const auto structure : {kFull, kReduced}) {
-    const auto plant = makeMultibody(robot, multibodyOptions(structure, true, true));
-    const RandomMotion motion = randomMotion(5);
-    std::vector<double> y = stateOf(*plant, motion);
-    Freely system(*plant);
-    system.loads = motion.loads;
-    system.loads.ball_spin_torque = 0.3;
-    RungeKutta4 rk4(plant->stateDim());
-    const auto power = [&] {
-      plant->realize(y.data());
-      const JointMotion m = plant->joints();
-      // Loads act between joint and carrier, and between rotor and carrier.
-      double p = system.loads.joint_torque.dot(m.velocity) +
-                 system.loads.rotor_torque.dot(m.rotor_velocity) + 0.3 * plant->base().ball_spin;
-      for (const PointForce& f : system.loads.forces) {
-        if (f.body == kBallBody) {
-          const Vector3 v = plant->base().v_WK_W;
-          const Vector3 w(-v.y() / robot.ball.radius, v.x() / robot.ball.radius,
-                          plant->base().ball_spin);
-          p += f.force_W.dot(v + w.cross(f.p_BP_B));
-        } else {
-          const BodyMotion b = plant->body(f.body);
-          p += f.force_W.dot(b.v_WL_W + b.w_WL_W.cross(b.R_WL * f.p_BP_B));
+  for (const RobotParameters& shape : {exampleRobot(), withASlide(exampleRobot())}) {
+    const RobotParameters robot = shape;
+    for (const auto structure : {kFull, kReduced}) {
+      const auto plant = makeMultibody(robot, multibodyOptions(structure, true, true));
+      const RandomMotion motion = randomMotion(5);
+      std::vector<double> y = stateOf(*plant, motion);
+      Freely system(*plant);
+      system.loads = motion.loads;
+      system.loads.ball_spin_torque = 0.3;
+      RungeKutta4 rk4(plant->stateDim());
+      const auto power = [&] {
+        plant->realize(y.data());
+        const JointMotion m = plant->joints();
+        // Loads act between joint and carrier, and between rotor and carrier.
+        double p = system.loads.joint_torque.dot(m.velocity) +
+                   system.loads.rotor_torque.dot(m.rotor_velocity) + 0.3 * plant->base().ball_spin;
+        for (const PointForce& f : system.loads.forces) {
+          if (f.body == kBallBody) {
+            const Vector3 v = plant->base().v_WK_W;
+            const Vector3 w(-v.y() / robot.ball.radius, v.x() / robot.ball.radius,
+                            plant->base().ball_spin);
+            p += f.force_W.dot(v + w.cross(f.p_BP_B));
+          } else {
+            const BodyMotion b = plant->body(f.body);
+            p += f.force_W.dot(b.v_WL_W + b.w_WL_W.cross(b.R_WL * f.p_BP_B));
+          }
         }
+        return p;
+      };
+      plant->realize(y.data());
+      const double before = plant->energy();
+      double work = 0;
+      const double h = 2e-5;
+      for (int i = 0; i < 500; ++i) {  // Simpson over pairs of steps
+        const double p0 = power();
+        rk4.step(system, 0, h, y.data());
+        const double p1 = power();
+        rk4.step(system, 0, h, y.data());
+        work += h / 3 * (p0 + 4 * p1 + power());
       }
-      return p;
-    };
-    plant->realize(y.data());
-    const double before = plant->energy();
-    double work = 0;
-    const double h = 2e-5;
-    for (int i = 0; i < 500; ++i) {  // Simpson over pairs of steps
-      const double p0 = power();
-      rk4.step(system, 0, h, y.data());
-      const double p1 = power();
-      rk4.step(system, 0, h, y.data());
-      work += h / 3 * (p0 + 4 * p1 + power());
+      plant->realize(y.data());
+      EXPECT_NEAR(plant->energy() - before, work, 1e-7 * std::abs(work));
     }
-    plant->realize(y.data());
-    EXPECT_NEAR(plant->energy() - before, work, 1e-7 * std::abs(work));
   }
 }
 

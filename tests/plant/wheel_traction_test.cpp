@@ -12,6 +12,7 @@
 #include "model/wheel_loads.hpp"
 #include "plant/added_truth.hpp"
 #include "plant/plant.hpp"
+#include "tests/model/sliding_robot.hpp"
 #include "tests/plant/support/plant_fixture.hpp"
 
 namespace ballbot {
@@ -100,72 +101,76 @@ Vector3 momentum(const RobotParameters& robot, const Multibody& multibody) {
 }
 
 TEST(WheelTraction, CarriesWhatChangesTheMomentum) {
-  RobotParameters robot = exampleRobot();
-  robot.payload_mass = 0.7;
-  for (const bool slipping : {false, true}) {
-    MultibodyOptions options = multibodyOptions(MultibodyStructure::kFull, true, true);
-    options.wheel_contacts = true;
-    if (slipping) options.wheel_slip.emplace();
-    const auto multibody = makeMultibody(robot, options);
-    std::vector<double> ydot(multibody->stateDim());
-    for (int index = 0; index < 30; ++index) {
-      const RandomMotion m = randomMotion(index);
-      const std::vector<double> y = stateOf(*multibody, m);
-      multibody->realize(y.data());
-      multibody->derivative(m.loads, ydot.data());
-      const WheelContacts contacts = multibody->wheelContacts();
-      Vector3 carried = Vector3::Zero();
-      const Matrix3 R_WB = multibody->base().R_WB;
-      for (int i = 0; i < kWheelCount; ++i) {
-        const Vector3 c = robot.wheelCentre(i).normalized();
-        carried += R_WB * (contacts.normal_force[i] * c +
-                           contacts.traction[i] * c.cross(robot.wheelAxle(i)));
+  for (const RobotParameters& shape : {exampleRobot(), withASlide(exampleRobot())}) {
+    RobotParameters robot = shape;
+    robot.payload_mass = 0.7;
+    for (const bool slipping : {false, true}) {
+      MultibodyOptions options = multibodyOptions(MultibodyStructure::kFull, true, true);
+      options.wheel_contacts = true;
+      if (slipping) options.wheel_slip.emplace();
+      const auto multibody = makeMultibody(robot, options);
+      std::vector<double> ydot(multibody->stateDim());
+      for (int index = 0; index < 30; ++index) {
+        const RandomMotion m = randomMotion(index);
+        const std::vector<double> y = stateOf(*multibody, m);
+        multibody->realize(y.data());
+        multibody->derivative(m.loads, ydot.data());
+        const WheelContacts contacts = multibody->wheelContacts();
+        Vector3 carried = Vector3::Zero();
+        const Matrix3 R_WB = multibody->base().R_WB;
+        for (int i = 0; i < kWheelCount; ++i) {
+          const Vector3 c = robot.wheelCentre(i).normalized();
+          carried += R_WB * (contacts.normal_force[i] * c +
+                             contacts.traction[i] * c.cross(robot.wheelAxle(i)));
+        }
+        Vector3 expected(0, 0, robot.gravity * (robot.totalMass() - robot.ball.mass));
+        for (const PointForce& f : m.loads.forces) {
+          if (f.body != kBallBody) expected -= f.force_W;
+        }
+        const double h = 1e-6;
+        std::vector<double> moved(y.size());
+        for (const double sign : {1.0, -1.0}) {
+          for (std::size_t k = 0; k < y.size(); ++k) moved[k] = y[k] + sign * h * ydot[k];
+          multibody->realize(moved.data());
+          expected += sign / (2 * h) * momentum(robot, *multibody);
+        }
+        EXPECT_LT((carried - expected).norm(), 1e-5 * (1 + expected.norm())) << index;
       }
-      Vector3 expected(0, 0, robot.gravity * (robot.totalMass() - robot.ball.mass));
-      for (const PointForce& f : m.loads.forces) {
-        if (f.body != kBallBody) expected -= f.force_W;
-      }
-      const double h = 1e-6;
-      std::vector<double> moved(y.size());
-      for (const double sign : {1.0, -1.0}) {
-        for (std::size_t k = 0; k < y.size(); ++k) moved[k] = y[k] + sign * h * ydot[k];
-        multibody->realize(moved.data());
-        expected += sign / (2 * h) * momentum(robot, *multibody);
-      }
-      EXPECT_LT((carried - expected).norm(), 1e-5 * (1 + expected.norm())) << index;
     }
   }
 }
 
 /// The controller's model of the same, at the plant's acceleration.
 TEST(WheelTraction, IsThatOfTheModelWhileNothingSlips) {
-  RobotParameters robot = exampleRobot();
-  robot.payload_mass = 0.7;
-  MultibodyOptions options = multibodyOptions(MultibodyStructure::kFull, false);
-  options.wheel_contacts = true;
-  const auto multibody = makeMultibody(robot, options);
-  const WheelLoadModel model(robot);
-  std::vector<double> ydot(multibody->stateDim());
-  for (int index = 0; index < 30; ++index) {
-    RandomMotion m = randomMotion(index);
-    m.ball_spin = 0;
-    const std::vector<double> y = stateOf(*multibody, m);
-    multibody->realize(y.data());
-    multibody->derivative(m.loads, ydot.data());
-    const WheelContacts contacts = multibody->wheelContacts();
-    StateVector x;
-    x << m.pose.px, m.pose.py, m.pose.yaw, m.pose.pitch, m.pose.roll, m.pose.arm, m.nu;
-    const BaseAcceleration base = multibody->baseAcceleration(ydot.data());
-    VelocityVector dnu;
-    dnu << base.a_WK_W.head<2>(), multibody->base().R_WB.transpose() * base.alpha_WB_W,
-        multibody->jointAcceleration(ydot.data()).joint.tail<kArmJointCount>();
-    Vector3 applied = Vector3::Zero();
-    for (const PointForce& f : m.loads.forces) {
-      if (f.body != kBallBody) applied += f.force_W;
+  for (const RobotParameters& shape : {exampleRobot(), withASlide(exampleRobot())}) {
+    RobotParameters robot = shape;
+    robot.payload_mass = 0.7;
+    MultibodyOptions options = multibodyOptions(MultibodyStructure::kFull, false);
+    options.wheel_contacts = true;
+    const auto multibody = makeMultibody(robot, options);
+    const WheelLoadModel model(robot);
+    std::vector<double> ydot(multibody->stateDim());
+    for (int index = 0; index < 30; ++index) {
+      RandomMotion m = randomMotion(index);
+      m.ball_spin = 0;
+      const std::vector<double> y = stateOf(*multibody, m);
+      multibody->realize(y.data());
+      multibody->derivative(m.loads, ydot.data());
+      const WheelContacts contacts = multibody->wheelContacts();
+      StateVector x;
+      x << m.pose.px, m.pose.py, m.pose.yaw, m.pose.pitch, m.pose.roll, m.pose.arm, m.nu;
+      const BaseAcceleration base = multibody->baseAcceleration(ydot.data());
+      VelocityVector dnu;
+      dnu << base.a_WK_W.head<2>(), multibody->base().R_WB.transpose() * base.alpha_WB_W,
+          multibody->jointAcceleration(ydot.data()).joint.tail<kArmJointCount>();
+      Vector3 applied = Vector3::Zero();
+      for (const PointForce& f : m.loads.forces) {
+        if (f.body != kBallBody) applied += f.force_W;
+      }
+      const WheelLoads loads = model.at(x, dnu, m.loads.joint_torque.head<3>(), applied);
+      EXPECT_LT((loads.normal - contacts.normal_force).norm(), 1e-8 * contacts.normal_force.norm());
+      EXPECT_LT((loads.traction - contacts.traction).norm(), 1e-8 * contacts.traction.norm());
     }
-    const WheelLoads loads = model.at(x, dnu, m.loads.joint_torque.head<3>(), applied);
-    EXPECT_LT((loads.normal - contacts.normal_force).norm(), 1e-8 * contacts.normal_force.norm());
-    EXPECT_LT((loads.traction - contacts.traction).norm(), 1e-8 * contacts.traction.norm());
   }
 }
 

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -54,6 +55,65 @@ TEST(OwnRobot, RunsAsTheOneItIsWithOtherFramesAndNames) {
   // What is drawn has the file's names.
   const std::string report = readFile(folder / "own/report.html");
   for (const char* name : {"chassis", "sphere", "omni_c"}) EXPECT_THAT(report, HasSubstr(name));
+}
+
+/// The shipped robot with its shoulder made a lift: its second arm joint slides upwards.
+void writeLift(const std::string& path) {
+  std::string urdf = readFile(BALLBOT_SOURCE_DIR "/configs/robots/ballbot.urdf");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = urdf.find(from, urdf.find("<joint name=\"arm_2_joint\""));
+    ASSERT_NE(at, std::string::npos) << from;
+    urdf.replace(at, from.size(), to);
+  };
+  replace("revolute", "prismatic");
+  replace("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 0 1\"/>");
+  replace("lower=\"-2.0\" upper=\"2.0\" effort=\"40\" velocity=\"12\"",
+          "lower=\"-0.05\" upper=\"0.3\" effort=\"2000\" velocity=\"0.24\"");
+  std::ofstream(path) << urdf;
+}
+
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> out;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) out.push_back(cell);
+  return out;
+}
+
+/// Of a table as exported, the last number of a column.
+double lastOf(const std::string& path, const std::string& column) {
+  std::istringstream text(readFile(path));
+  std::string head, line, last;
+  std::getline(text, head);
+  while (std::getline(text, line)) last = line;
+  const std::vector<std::string> names = cells(head), values = cells(last);
+  for (std::size_t i = 0; i < names.size() && i < values.size(); ++i) {
+    if (names[i].rfind(column, 0) == 0) return std::stod(values[i]);
+  }
+  ADD_FAILURE() << path << " has no " << column;
+  return 0;
+}
+
+// With the weights of the shipped robot, at full fidelity: pushed, and asked to lift its hand.
+TEST(OwnRobot, BalancesWithAnArmThatSlides) {
+  const TemporaryFolder folder;
+  const std::string urdf = folder / "lift.urdf";
+  writeLift(urdf);
+  const std::string lift = "robot.nominal_arm_rad=[0, 5, 1.5707963267948966]";
+  for (int seed = 1; seed <= 3; ++seed) {
+    const auto pushed = summaryOf({"push", {"robot.urdf=" + urdf, lift}, seed});
+    ASSERT_FALSE(pushed.is_null());
+    EXPECT_TRUE(pushed["passed"].get<bool>()) << pushed.dump(1);
+  }
+  const std::string up = "{weight: 20, reference: {moves: [{at_s: 2, by: [0, 5, 0], over_s: 1}]}}";
+  const auto lifted = summaryOf(
+      {"balance",
+       {"robot.urdf=" + urdf, lift, "duration_s=12", "controller.mpc.tasks.arm_position=" + up},
+       1,
+       folder / "lifted"});
+  ASSERT_FALSE(lifted.is_null());
+  EXPECT_TRUE(lifted["passed"].get<bool>()) << lifted.dump(1);
+  ASSERT_EQ(runBallbot({"export", folder / "lifted", "--csv", folder / "csv"}).exit_code, 0);
+  EXPECT_NEAR(lastOf(folder / "csv/truth.csv", "arm_angle_arm2"), 10, 0.2);
 }
 
 }  // namespace
