@@ -15,7 +15,7 @@ constexpr double kSidewaysShare = 0.15;
 
 VelocityVector byRow(double force, double moment, double arm) {
   VelocityVector out;
-  out << force, force, moment, moment, moment, arm, arm, arm;
+  out << force, force, moment, moment, moment, ArmVector::Constant(arm);
   return out;
 }
 

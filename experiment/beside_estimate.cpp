@@ -1,5 +1,7 @@
 #include "experiment/beside_estimate.hpp"
 
+#include <string>
+
 namespace ballbot {
 namespace {
 
@@ -18,12 +20,13 @@ void addSpin(std::vector<BesideSignal>& out) {
 void addLastingForces(std::vector<BesideSignal>& out) {
   out.push_back({{"lasting_hand_mass", "kg", "mass in the hand that the model does not know of"},
                  [](const Known& known, int) { return known.lasting.forces().hand_mass; }});
-  static constexpr const char* kRows[kVelocityDim] = {"force_x",      "force_y",     "moment_x",
-                                                      "moment_y",     "moment_z",    "arm_torque_1",
-                                                      "arm_torque_2", "arm_torque_3"};
+  static constexpr const char* kBase[kArmRate1] = {"force_x", "force_y", "moment_x", "moment_y",
+                                                   "moment_z"};
   for (int i = 0; i < kVelocityDim; ++i) {
     const bool force = i < kOmegaX, moment = !force && i < kArmRate1;
-    out.push_back({{std::string("lasting_") + kRows[i], force ? "N" : "N m",
+    const std::string row =
+        i < kArmRate1 ? kBase[i] : "arm_torque_" + std::to_string(i - kArmRate1 + 1);
+    out.push_back({{"lasting_" + row, force ? "N" : "N m",
                     force    ? "lasting force along the floor that the model does not know of"
                     : moment ? "the same, moment about the ball's centre in the base's axes"
                              : "the same, torque in a joint of the arm"},
