@@ -1,5 +1,6 @@
 #include "controller/continuous_engine.hpp"
 
+#include "controller/input_sizes.hpp"
 #include "controller/policy_guess.hpp"
 
 namespace ballbot {
@@ -49,8 +50,8 @@ MpcSolveReport ContinuousEngine<NU>::solve(SimTime now, const MpcState& x0, cons
   return report;
 }
 
-template class ContinuousEngine<kJointCount>;
-template class ContinuousEngine<kJointCount + 3>;
-template class ContinuousEngine<kJointCount + 6>;
+#define BALLBOT_INSTANTIATE(NU) template class ContinuousEngine<NU>;
+BALLBOT_FOR_INPUT_SIZES(BALLBOT_INSTANTIATE)
+#undef BALLBOT_INSTANTIATE
 
 }  // namespace ballbot

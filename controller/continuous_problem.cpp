@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "controller/contact_input.hpp"
+#include "controller/input_sizes.hpp"
 #include "solver/shaped_input.hpp"
 
 namespace ballbot {
@@ -95,8 +96,8 @@ void ContinuousProblem<NU>::expandFinalCost(const X& x,
   cost_.expandFinal(x.template head<kStateDim>(), tasks_, 0, unused, value);
 }
 
-template class ContinuousProblem<kJointCount>;
-template class ContinuousProblem<kJointCount + 3>;
-template class ContinuousProblem<kJointCount + 6>;
+#define BALLBOT_INSTANTIATE(NU) template class ContinuousProblem<NU>;
+BALLBOT_FOR_INPUT_SIZES(BALLBOT_INSTANTIATE)
+#undef BALLBOT_INSTANTIATE
 
 }  // namespace ballbot

@@ -1,5 +1,6 @@
 #include "controller/discrete_engine.hpp"
 
+#include "controller/input_sizes.hpp"
 #include "controller/policy_guess.hpp"
 
 namespace ballbot {
@@ -37,8 +38,8 @@ MpcSolveReport DiscreteEngine<NU>::solve(SimTime now, const MpcState& x0, const 
   return report;
 }
 
-template class DiscreteEngine<kJointCount>;
-template class DiscreteEngine<kJointCount + 3>;
-template class DiscreteEngine<kJointCount + 6>;
+#define BALLBOT_INSTANTIATE(NU) template class DiscreteEngine<NU>;
+BALLBOT_FOR_INPUT_SIZES(BALLBOT_INSTANTIATE)
+#undef BALLBOT_INSTANTIATE
 
 }  // namespace ballbot

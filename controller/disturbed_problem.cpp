@@ -1,6 +1,7 @@
 #include "controller/disturbed_problem.hpp"
 
 #include "controller/added_acceleration.hpp"
+#include "controller/input_sizes.hpp"
 
 namespace ballbot {
 namespace {
@@ -98,11 +99,10 @@ void DisturbedContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
   }
 }
 
-template class DisturbedProblem<kJointCount>;
-template class DisturbedProblem<kJointCount + 3>;
-template class DisturbedProblem<kJointCount + 6>;
-template class DisturbedContinuousProblem<kJointCount>;
-template class DisturbedContinuousProblem<kJointCount + 3>;
-template class DisturbedContinuousProblem<kJointCount + 6>;
+#define BALLBOT_INSTANTIATE(NU)        \
+  template class DisturbedProblem<NU>; \
+  template class DisturbedContinuousProblem<NU>;
+BALLBOT_FOR_INPUT_SIZES(BALLBOT_INSTANTIATE)
+#undef BALLBOT_INSTANTIATE
 
 }  // namespace ballbot

@@ -1,5 +1,7 @@
 #include "controller/floor_limited_problem.hpp"
 
+#include "controller/input_sizes.hpp"
+
 namespace ballbot {
 
 template <int NU>
@@ -50,11 +52,10 @@ void FloorLimitedContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
                            u.template head<kWheelCount>(), 1, out);
 }
 
-template class FloorLimitedProblem<kJointCount>;
-template class FloorLimitedProblem<kJointCount + 3>;
-template class FloorLimitedProblem<kJointCount + 6>;
-template class FloorLimitedContinuousProblem<kJointCount>;
-template class FloorLimitedContinuousProblem<kJointCount + 3>;
-template class FloorLimitedContinuousProblem<kJointCount + 6>;
+#define BALLBOT_INSTANTIATE(NU)           \
+  template class FloorLimitedProblem<NU>; \
+  template class FloorLimitedContinuousProblem<NU>;
+BALLBOT_FOR_INPUT_SIZES(BALLBOT_INSTANTIATE)
+#undef BALLBOT_INSTANTIATE
 
 }  // namespace ballbot

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "controller/input_sizes.hpp"
+
 namespace ballbot {
 namespace {
 
@@ -93,11 +95,10 @@ void LostWheelContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
   disconnect<NU>(lost_, u, out);
 }
 
-template class LostWheelProblem<kJointCount>;
-template class LostWheelProblem<kJointCount + 3>;
-template class LostWheelProblem<kJointCount + 6>;
-template class LostWheelContinuousProblem<kJointCount>;
-template class LostWheelContinuousProblem<kJointCount + 3>;
-template class LostWheelContinuousProblem<kJointCount + 6>;
+#define BALLBOT_INSTANTIATE(NU)        \
+  template class LostWheelProblem<NU>; \
+  template class LostWheelContinuousProblem<NU>;
+BALLBOT_FOR_INPUT_SIZES(BALLBOT_INSTANTIATE)
+#undef BALLBOT_INSTANTIATE
 
 }  // namespace ballbot

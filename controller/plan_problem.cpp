@@ -1,5 +1,7 @@
 #include "controller/plan_problem.hpp"
 
+#include "controller/input_sizes.hpp"
+
 namespace ballbot {
 namespace {
 
@@ -102,11 +104,10 @@ typename ContinuousPlanProblem<NU>::Base& ContinuousPlanProblem<NU>::at(
                     conditions.push);
 }
 
-template class PlanProblem<kJointCount>;
-template class PlanProblem<kJointCount + 3>;
-template class PlanProblem<kJointCount + 6>;
-template class ContinuousPlanProblem<kJointCount>;
-template class ContinuousPlanProblem<kJointCount + 3>;
-template class ContinuousPlanProblem<kJointCount + 6>;
+#define BALLBOT_INSTANTIATE(NU)   \
+  template class PlanProblem<NU>; \
+  template class ContinuousPlanProblem<NU>;
+BALLBOT_FOR_INPUT_SIZES(BALLBOT_INSTANTIATE)
+#undef BALLBOT_INSTANTIATE
 
 }  // namespace ballbot

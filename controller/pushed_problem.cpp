@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "controller/added_acceleration.hpp"
+#include "controller/input_sizes.hpp"
 
 namespace ballbot {
 
@@ -63,11 +64,10 @@ void PushedContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
   dx.template segment<kVelocityDim>(kPositionDim) += acceleration_;
 }
 
-template class PushedProblem<kJointCount>;
-template class PushedProblem<kJointCount + 3>;
-template class PushedProblem<kJointCount + 6>;
-template class PushedContinuousProblem<kJointCount>;
-template class PushedContinuousProblem<kJointCount + 3>;
-template class PushedContinuousProblem<kJointCount + 6>;
+#define BALLBOT_INSTANTIATE(NU)     \
+  template class PushedProblem<NU>; \
+  template class PushedContinuousProblem<NU>;
+BALLBOT_FOR_INPUT_SIZES(BALLBOT_INSTANTIATE)
+#undef BALLBOT_INSTANTIATE
 
 }  // namespace ballbot

@@ -3,7 +3,7 @@
 // specialises it, and thereby the last bit of every plan.
 
 #include "controller/cost_terms.hpp"
-#include "controller/mpc_dimensions.hpp"
+#include "controller/input_sizes.hpp"
 #include "solver/slq_solver_impl.hpp"
 
 namespace ballbot {
@@ -16,9 +16,7 @@ template struct ValueFunction<kMpcStateDim>;
                                               ValueFunction<kMpcStateDim>&,             \
                                               StageGain<kMpcStateDim, NU>&) noexcept;   \
   template class SlqSolver<kMpcStateDim, NU, CostTerms>;
-BALLBOT_INSTANTIATE(kJointCount)
-BALLBOT_INSTANTIATE(kJointCount + 3)
-BALLBOT_INSTANTIATE(kJointCount + 6)
+BALLBOT_FOR_INPUT_SIZES(BALLBOT_INSTANTIATE)
 #undef BALLBOT_INSTANTIATE
 
 }  // namespace ballbot

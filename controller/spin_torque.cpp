@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controller/input_sizes.hpp"
+
 namespace ballbot {
 
 SpinTorque::SpinTorque(const RobotParameters& robot) {
@@ -66,14 +68,11 @@ void expandSpinTorqueCost(const SpinTorque& spin, const Constraints& limits, con
   }
 }
 
-template void expandSpinTorqueCost<kJointCount>(const SpinTorque&, const Constraints&,
-                                                const StateVector&, const Vector3&, double,
-                                                LqStage<kMpcStateDim, kJointCount>&) noexcept;
-template void expandSpinTorqueCost<kJointCount + 3>(
-    const SpinTorque&, const Constraints&, const StateVector&, const Vector3&, double,
-    LqStage<kMpcStateDim, kJointCount + 3>&) noexcept;
-template void expandSpinTorqueCost<kJointCount + 6>(
-    const SpinTorque&, const Constraints&, const StateVector&, const Vector3&, double,
-    LqStage<kMpcStateDim, kJointCount + 6>&) noexcept;
+#define BALLBOT_INSTANTIATE(NU)                                                      \
+  template void expandSpinTorqueCost<NU>(const SpinTorque&, const Constraints&,      \
+                                         const StateVector&, const Vector3&, double, \
+                                         LqStage<kMpcStateDim, NU>&) noexcept;
+BALLBOT_FOR_INPUT_SIZES(BALLBOT_INSTANTIATE)
+#undef BALLBOT_INSTANTIATE
 
 }  // namespace ballbot

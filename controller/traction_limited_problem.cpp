@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "controller/input_sizes.hpp"
+
 namespace ballbot {
 
 template <int NU>
@@ -87,11 +89,10 @@ void TractionLimitedContinuousProblem<NU>::expand(const X& x, const U& u, X& dx,
   expandTractionCost<NU>(margin_, marginAt(x, u), weight_, keeps_tilt_, out);
 }
 
-template class TractionLimitedProblem<kJointCount>;
-template class TractionLimitedProblem<kJointCount + 3>;
-template class TractionLimitedProblem<kJointCount + 6>;
-template class TractionLimitedContinuousProblem<kJointCount>;
-template class TractionLimitedContinuousProblem<kJointCount + 3>;
-template class TractionLimitedContinuousProblem<kJointCount + 6>;
+#define BALLBOT_INSTANTIATE(NU)              \
+  template class TractionLimitedProblem<NU>; \
+  template class TractionLimitedContinuousProblem<NU>;
+BALLBOT_FOR_INPUT_SIZES(BALLBOT_INSTANTIATE)
+#undef BALLBOT_INSTANTIATE
 
 }  // namespace ballbot

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "controller/input_sizes.hpp"
 #include "model/reduced_dynamics.hpp"
 #include "model/wheel_loads.hpp"
 
@@ -110,14 +111,10 @@ void expandTractionCost(const TractionMargin& model, const TractionMargin::Rows&
   }
 }
 
-template void expandTractionCost<kJointCount>(const TractionMargin&, const TractionMargin::Rows&,
-                                              double, bool,
-                                              LqStage<kMpcStateDim, kJointCount>&) noexcept;
-template void expandTractionCost<kJointCount + 3>(const TractionMargin&,
-                                                  const TractionMargin::Rows&, double, bool,
-                                                  LqStage<kMpcStateDim, kJointCount + 3>&) noexcept;
-template void expandTractionCost<kJointCount + 6>(const TractionMargin&,
-                                                  const TractionMargin::Rows&, double, bool,
-                                                  LqStage<kMpcStateDim, kJointCount + 6>&) noexcept;
+#define BALLBOT_INSTANTIATE(NU)                                                                    \
+  template void expandTractionCost<NU>(const TractionMargin&, const TractionMargin::Rows&, double, \
+                                       bool, LqStage<kMpcStateDim, NU>&) noexcept;
+BALLBOT_FOR_INPUT_SIZES(BALLBOT_INSTANTIATE)
+#undef BALLBOT_INSTANTIATE
 
 }  // namespace ballbot

@@ -4,6 +4,7 @@
 
 #include "controller/contact_input.hpp"
 #include "controller/euler_rates.hpp"
+#include "controller/input_sizes.hpp"
 #include "solver/shaped_input.hpp"
 
 namespace ballbot {
@@ -220,8 +221,8 @@ void WholeBodyProblem<NU>::approximateFinalCost(const X& x, CostTerms& terms,
   cost_.expandFinal(x.template head<kStateDim>(), tasks_.back(), state_share_.back(), terms, value);
 }
 
-template class WholeBodyProblem<kJointCount>;
-template class WholeBodyProblem<kJointCount + 3>;
-template class WholeBodyProblem<kJointCount + 6>;
+#define BALLBOT_INSTANTIATE(NU) template class WholeBodyProblem<NU>;
+BALLBOT_FOR_INPUT_SIZES(BALLBOT_INSTANTIATE)
+#undef BALLBOT_INSTANTIATE
 
 }  // namespace ballbot
